@@ -1,0 +1,8 @@
+#pragma once
+/// \file
+/// All solid laws.
+
+#include "ifsi/material/circumferential_fibre.hpp"
+#include "ifsi/material/neo_hookean.hpp"
+#include "ifsi/material/st_venant_kirchhoff.hpp"
+#include "ifsi/material/uncoupled_neo_hookean.hpp"

@@ -1,0 +1,189 @@
+#pragma once
+/// \file
+/// A flow in time: one implicit step, or the steady state.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ifsi/io/parameters.hpp"
+#include "ifsi/linalg/block_norms.hpp"
+#include "ifsi/linalg/linear_solver.hpp"
+#include "ifsi/simulation/flow_state.hpp"
+#include "ifsi/simulation/flow_system.hpp"
+#include "ifsi/simulation/newton.hpp"
+
+namespace ifsi {
+
+/// What a user may choose about the numerics of a flow.
+struct FlowOptions {
+  double rho_inf = 0.5;       ///< spectral radius at infinite frequency of generalized-alpha
+  double tau_dt = 0.0;        ///< reference time step inside tau_M; 0: the time step itself
+  NewtonOptions newton;
+  LinearSolverOptions linear;
+  std::array<double, 3> gravity{};
+
+  void declare(Parameters& params) {
+    params.add("time.rho_inf", rho_inf, "-", "spectral radius at infinite frequency", {0.0, 1.0});
+    params.add("fluid.tau_dt", tau_dt, "time", "reference time step in tau_M (0: dt)", non_negative);
+    newton.declare(params);
+    params.add_choice("linear.method", linear.method, {"auto", "direct", "gmres"}, "linear solver");
+    params.add("linear.max_iterations", linear.max_iterations, "-", "GMRES iterations per solve", {1, 10000});
+  }
+};
+
+/// Newton's view of a flow step lives here too: see NonlinearSystem. The mesh must outlive the problem.
+template <class Element, class Model = FluidModel<>>
+class FlowProblem {
+ public:
+  static constexpr int dim = Element::dim, B = dim + 1;
+  using System = FlowSystem<Element, Model>;
+  using Point = Vec<double, dim>;
+  using Field = std::function<Point(const Point& x)>;
+  using ScalarField = std::function<double(const Point& x)>;
+
+  FlowProblem(const Mesh<Element>& mesh, FlowBoundary<dim> boundary, double rho,
+              typename Model::Rheology rheology, FlowOptions options)
+      : options_(std::move(options)), system_(mesh, std::move(boundary)), state_(mesh.n_nodes()),
+        K_(system_.make_matrix()), R_(mesh.n_nodes() * B, 0.0), reaction_(R_), update_(R_),
+        solver_(options_.linear, system_.mask(), system_.enclosed()) {
+    fluid_.rho = rho;
+    fluid_.rheology = rheology;
+    fluid_.C_I = Element::order == 1 ? 36.0 : 60.0;
+    start(0.0, [](const Point&) { return Point::zero(); });
+  }
+
+  /// Initial velocity, and where known its rate and the pressure.
+  void start(double t, const Field& v, const Field& v_dot = {}, const ScalarField& p = {}) {
+    const auto x = system_.mesh().node_coordinates();
+    std::vector<double> u(R_.size(), 0.0), rate, pressure;
+    if (v_dot) rate.assign(R_.size(), 0.0);
+    for (std::size_t node = 0; node < x.size(); ++node) {
+      for (int i = 0; i < dim; ++i) u[node * B + i] = v(x[node])[i];
+      if (v_dot)
+        for (int i = 0; i < dim; ++i) rate[node * B + i] = v_dot(x[node])[i];
+      if (p) pressure.push_back(p(x[node]));
+    }
+    state_.start(t, u, rate, pressure);
+    smooth_start_ = static_cast<bool>(v_dot);
+  }
+
+  /// One step of generalized-alpha. When the report says it did not converge nothing has changed: try a smaller dt.
+  NewtonReport step(double dt) { return step(GeneralizedAlpha::from_rho_inf(options_.rho_inf), dt, false); }
+
+  /// The steady state, by Newton from the present one; if that fails, through steps of backward Euler of growing
+  /// size until Newton holds.
+  NewtonReport solve_steady() {
+    NewtonReport total;
+    double dt = initial_pseudo_dt();
+    for (int attempt = 0; attempt < 60; ++attempt) {
+      const NewtonReport steady = attempt % 5 == 0 ? step(GeneralizedAlpha::backward_euler(), 0.0, true) : NewtonReport{};
+      total.iterations += steady.iterations, total.gmres += steady.gmres;
+      if (steady.converged) return total.converged = true, total.residual = steady.residual, total;
+      const NewtonReport pseudo = step(GeneralizedAlpha::backward_euler(), dt, true);
+      total.iterations += pseudo.iterations, total.gmres += pseudo.gmres;
+      dt *= pseudo.converged ? 3.0 : 0.25;
+      total.failure = steady.failure.empty() ? total.failure : steady.failure;
+    }
+    return total;
+  }
+
+  [[nodiscard]] const FlowState<B>& state() const { return state_; }
+  [[nodiscard]] FlowState<B>& state() { return state_; }
+  [[nodiscard]] const System& system() const { return system_; }
+  [[nodiscard]] const Mesh<Element>& mesh() const { return system_.mesh(); }
+  [[nodiscard]] const LinearSolver<B>& solver() const { return solver_; }
+  [[nodiscard]] double time() const { return state_.time(); }
+  /// Sees every residual evaluation of Newton.
+  void watch(std::function<void(const NewtonReport&)> watcher) { watch_ = std::move(watcher); }
+
+  /// Velocity, and pressure at the same time, of every local node.
+  [[nodiscard]] std::vector<double> solution() const {
+    std::vector<double> u(state_.velocity().begin(), state_.velocity().end());
+    for (std::size_t node = 0; node * B < u.size(); ++node) u[node * B + dim] = state_.pressure(static_cast<int>(node));
+    return u;
+  }
+
+  /// Force of the fluid on a boundary (eq. 12) at time state().time_alpha(), of the last step.
+  [[nodiscard]] Point force(const std::string& boundary) const { return system_.force(boundary, reaction_); }
+
+  // NonlinearSystem
+  void assemble_residual() { assemble(nullptr); }
+  void assemble_tangent() {
+    assemble(&K_);
+    constrain_matrix<B>(system_.mask(), K_);
+  }
+  BlockNorms relative_residual() {
+    const BlockNorms r = block_norms<B>(mesh().nodes, R_), size = absolute_product_norms<B>(K_, state_.u);
+    const auto ratio = [](double a, double b) { return a == 0.0 ? 0.0 : a / std::max(b, 1e-300); };
+    return {ratio(r.momentum, size.momentum), ratio(r.mass, size.mass)};
+  }
+  SolverReport solve(BlockNorms target) {
+    for (std::size_t i = 0; i < R_.size(); ++i) update_[i] = 0.0, R_[i] = -R_[i];
+    SolverReport report = solver_.solve(K_, R_, update_, target);
+    mesh().nodes.update_ghosts(update_.data(), B);
+    return report;
+  }
+  void apply_update(double factor) {
+    for (std::size_t i = 0; i < update_.size(); ++i) state_.u[i] += factor * update_[i];
+    state_.update_rate();
+  }
+
+ private:
+  /// dt = 0 with `steady` asks for the steady equations themselves.
+  NewtonReport step(const GeneralizedAlpha& scheme, double dt, bool steady) {
+    const double dt_rate = dt > 0.0 ? dt : 1.0;
+    fluid_.c_inertia = dt > 0.0 ? scheme.c_inertia(dt) : 0.0;
+    const double tau_dt = options_.tau_dt > 0.0 ? options_.tau_dt : dt;
+    fluid_.tau_rate2 = steady ? 0.0 : 4.0 / (tau_dt * tau_dt);
+    inertia_ = dt > 0.0;
+    solver_.set_physics({.rho_c = fluid_.rho * fluid_.c_inertia});
+    state_.begin_step(scheme, dt_rate, !steady && (smooth_start_ || state_.n_steps() > 1));
+    system_.for_each_prescribed(state_.time() + (steady ? 0.0 : dt),
+                                [&](int node, int i, double value) { state_.set_velocity(node, i, value); });
+    state_.update_rate();
+    NewtonReport report = newton(*this, options_.newton, watch_);
+    if (report.converged) state_.end_step();
+    if (report.converged && system_.enclosed()) remove_mean_pressure();
+    return report;
+  }
+
+  void assemble(BlockCsr<B>* K) {
+    FlowFields fields{.u = state_.u, .u_dot = inertia_ ? std::span<const double>(state_.rate) : no_rate(), .f = {},
+                      .s = {}, .k_p = {}, .gravity = options_.gravity};
+    system_.assemble(fields, fluid_, state_.time_alpha(), R_, K);
+    reaction_ = R_;
+    constrain_residual<B>(system_.mask(), mesh().n_owned_nodes(), R_);
+  }
+
+  std::span<const double> no_rate() {
+    if (zero_.empty()) zero_.assign(R_.size(), 0.0);
+    return zero_;
+  }
+
+  void remove_mean_pressure() {
+    double sums[2] = {0.0, static_cast<double>(mesh().n_owned_nodes())};
+    for (int node = 0; node < mesh().n_owned_nodes(); ++node) sums[0] += state_.pressure(node);
+    mesh().comm.sum_in_place(sums, 2);
+    state_.shift_pressure(-sums[0] / sums[1]);
+  }
+
+  /// The time a particle needs for a cell, were it to move with the largest prescribed speed.
+  [[nodiscard]] double initial_pseudo_dt() const {
+    double v_max = 1e-12;
+    system_.for_each_prescribed(state_.time(), [&](int, int, double v) { v_max = std::max(v_max, std::abs(v)); });
+    return mesh().h_max() / mesh().comm.max(v_max);
+  }
+
+  FlowOptions options_;
+  System system_;
+  FlowState<B> state_;
+  FluidParameters<typename Model::Rheology> fluid_;
+  BlockCsr<B> K_;
+  std::vector<double> R_, reaction_, update_, zero_;
+  LinearSolver<B> solver_;
+  std::function<void(const NewtonReport&)> watch_;
+  bool inertia_ = true, smooth_start_ = false;
+};
+
+}  // namespace ifsi

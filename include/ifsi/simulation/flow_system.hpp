@@ -1,0 +1,152 @@
+#pragma once
+/// \file
+/// The discrete equations of a flow on a mesh: cells, boundary terms and prescribed velocities.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ifsi/assembly/dirichlet.hpp"
+#include "ifsi/assembly/flow_assembler.hpp"
+#include "ifsi/assembly/flow_faces.hpp"
+#include "ifsi/core/error.hpp"
+#include "ifsi/simulation/flow_boundary.hpp"
+
+namespace ifsi {
+
+/// Residual and tangent of a flow with its boundary conditions, and the prescribed velocities.
+/// The mesh must outlive it.
+template <class Element, class Model = FluidModel<>>
+class FlowSystem {
+ public:
+  static constexpr int dim = Element::dim, B = dim + 1;
+  using Boundary = FlowBoundary<dim>;
+  using Coordinates = typename Model::Coordinates;
+  using Parameters = FluidParameters<typename Model::Rheology>;
+
+  /// \throws Error (configuration) for a boundary name the mesh lacks, a boundary without any condition, or a
+  /// slip boundary that is not a plane normal to an axis.
+  FlowSystem(const Mesh<Element>& mesh, Boundary boundary)
+      : mesh_(mesh), boundary_(std::move(boundary)), assembler_(mesh), mask_(mesh.n_nodes(), 0) {
+    check_complete();
+    find_prescribed();
+  }
+
+  [[nodiscard]] const Mesh<Element>& mesh() const { return mesh_; }
+  [[nodiscard]] const ConstraintMask& mask() const { return mask_; }
+  [[nodiscard]] BlockCsr<B> make_matrix() const { return assembler_.make_matrix(); }
+  /// No boundary lets the fluid out: the pressure is known up to a constant.
+  [[nodiscard]] bool enclosed() const {
+    return boundary_.free().empty() && boundary_.tractions().empty() && boundary_.pressures().empty();
+  }
+
+  /// Calls set(node, component, value) for every prescribed velocity at time t.
+  template <class Set>
+  void for_each_prescribed(double t, Set&& set) const {
+    for (const Prescribed& p : prescribed_) {
+      const Vec<double, dim> value =
+          p.profile < 0 ? Vec<double, dim>::zero() : boundary_.velocities()[p.profile].value(p.x, t);
+      for (int i = 0; i < dim; ++i)
+        if (p.components >> i & 1) set(p.node, i, value[i]);
+    }
+  }
+
+  /// Residual (and tangent, when K is given) with Neumann data at time t, before prescribed unknowns are
+  /// removed.
+  void assemble(const FlowFields& fields, const Parameters& fluid, double t, std::span<double> R,
+                BlockCsr<B>* K) const {
+    if (K != nullptr)
+      assembler_.residual_and_tangent(fields, fluid, R, *K);
+    else
+      assembler_.residual(fields, fluid, R);
+    for (const auto& h : boundary_.tractions())
+      add_traction<Coordinates>(
+          mesh_, mesh_.boundary(h.boundary), [&](const auto& x, const auto&) { return h.value(x, t); }, R);
+    for (const auto& p : boundary_.pressures()) {
+      const double value = p.value(t);
+      add_traction<Coordinates>(
+          mesh_, mesh_.boundary(p.boundary), [&](const auto&, const auto& n) { return -value * n; }, R);
+    }
+    for (const auto& outlet : boundary_.backflows())
+      add_backflow<Coordinates>(mesh_, mesh_.boundary(outlet.boundary), outlet.beta * fluid.rho, fields.u, R,
+                                K);
+  }
+
+  /// Force of the fluid on a boundary from the residual before elimination (eq. 12), summed over the ranks.
+  [[nodiscard]] Vec<double, dim> force(const std::string& boundary, std::span<const double> R) const {
+    auto F = Vec<double, dim>::zero();
+    for (int node : mesh_.nodes_on(boundary))
+      if (node < mesh_.n_owned_nodes())
+        for (int i = 0; i < dim; ++i) F[i] -= R[node * B + i];
+    mesh_.comm.sum_in_place(F.data, dim);
+    return F;
+  }
+
+ private:
+  struct Prescribed {
+    int node;
+    std::uint8_t components;
+    int profile;  ///< index into velocities, -1 for zero
+    Vec<double, dim> x;
+  };
+
+  void check_complete() const {
+    std::vector<bool> stated(mesh_.boundary_names.size(), false);
+    const auto state = [&](const std::string& name) { stated[mesh_.boundary(name)] = true; };
+    for (const auto& b : boundary_.velocities()) state(b.boundary);
+    for (const auto& b : boundary_.tractions()) state(b.boundary);
+    for (const auto& b : boundary_.pressures()) state(b.boundary);
+    for (const auto& name : boundary_.slips()) state(name);
+    for (const auto& name : boundary_.free()) state(name);
+    for (const auto& b : boundary_.backflows()) (void)mesh_.boundary(b.boundary);  // throws if unknown
+    for (std::size_t b = 0; b < stated.size(); ++b)
+      if (!stated[b])
+        throw Error(ExitCode::configuration, "boundary \"" + mesh_.boundary_names[b] +
+                                                 "\" has no condition; expected a velocity, no_slip, slip, "
+                                                 "traction, pressure or traction_free");
+  }
+
+  /// Later statements win where boundaries meet; what slip fixes stays fixed.
+  void find_prescribed() {
+    const auto x = mesh_.node_coordinates();
+    constexpr std::uint8_t all = (1 << dim) - 1;
+    std::vector<int> profile(mesh_.n_nodes(), -1);
+    for (const std::string& name : boundary_.slips()) {
+      const std::uint8_t normal = 1 << normal_axis(name);
+      for (int node : mesh_.nodes_on(name)) mask_[node] |= normal;
+    }
+    for (std::size_t k = 0; k < boundary_.velocities().size(); ++k)
+      for (int node : mesh_.nodes_on(boundary_.velocities()[k].boundary)) {
+        mask_[node] = all;
+        profile[node] = static_cast<int>(k);
+      }
+    for (int node = 0; node < mesh_.n_nodes(); ++node)
+      if (mask_[node] != 0) prescribed_.push_back({node, mask_[node], profile[node], x[node]});
+  }
+
+  /// The coordinate axis a plane boundary is normal to, the same on all ranks.
+  [[nodiscard]] int normal_axis(const std::string& name) const {
+    auto seen = Vec<double, dim>::zero();  // per axis: 1 when some face has a part of its normal along it
+    for_each_face_point<Cartesian>(mesh_, mesh_.boundary(name), true, [&](const FacePoint<dim>& q) {
+      const double dA = std::sqrt(dot(q.n_dA, q.n_dA));
+      for (int i = 0; i < dim; ++i)
+        if (std::abs(q.n_dA[i]) > 1e-8 * dA) seen[i] = 1.0;
+    });
+    mesh_.comm.sum_in_place(seen.data, dim);
+    int axis = -1, n_axes = 0;
+    for (int i = 0; i < dim; ++i)
+      if (seen[i] > 0.0) axis = i, ++n_axes;
+    if (n_axes != 1)
+      throw Error(ExitCode::configuration,
+                  "slip boundary \"" + name + "\" is not a plane normal to a coordinate axis");
+    return axis;
+  }
+
+  const Mesh<Element>& mesh_;
+  Boundary boundary_;
+  FlowAssembler<Element, Model> assembler_;
+  ConstraintMask mask_;
+  std::vector<Prescribed> prescribed_;
+};
+
+}  // namespace ifsi

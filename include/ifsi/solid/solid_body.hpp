@@ -1,0 +1,348 @@
+#pragma once
+/// \file
+/// A solid body: its mesh, law and parameters, and the loops over its cells and faces.
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include "ifsi/core/error.hpp"
+#include "ifsi/core/pack.hpp"
+#include "ifsi/mesh/global_mesh.hpp"
+#include "ifsi/mesh/names.hpp"
+#include "ifsi/solid/principal.hpp"
+#include "ifsi/solid/solid_cell.hpp"
+#include "ifsi/solid/surface_load.hpp"
+
+namespace ifsi {
+
+/// Nodal displacement, velocity and acceleration, dim numbers per node, each at its own level of the time
+/// scheme. An empty velocity or acceleration is zero.
+struct SolidState {
+  std::span<const double> u, v = {}, a = {};
+};
+
+/// How an assembly went: the smallest det F at a quadrature point, and the cell that has it.
+struct DeformationReport {
+  double min_det_F = 1e300;
+  int cell = -1;
+  /// Some cell is turned inside out (or not a number): it was left out and the state must be rejected.
+  [[nodiscard]] bool inverted() const { return cell >= 0 && !(min_det_F > 0); }
+  /// Keeps the worse of both; a NaN is worst.
+  void merge(double det_F, int c) {
+    if (!(det_F >= min_det_F) && min_det_F == min_det_F) *this = {det_F, c};
+  }
+};
+
+/// Balances of a body: volumes (areas in 2D), energies, momentum, mass times position.
+template <int dim>
+struct SolidTotals {
+  double volume = 0, reference_volume = 0, elastic_energy = 0, kinetic_energy = 0;
+  Vec<double, dim> momentum{};
+  DeformationReport deformation;
+};
+
+/// Nodal averages for output. Tensors hold 6 numbers per node: xx, yy, zz, xy, yz, xz (for a body of
+/// revolution x, y, z stand for r, z, theta); principal stresses 3, largest first.
+struct SolidFields {
+  std::vector<double> cauchy, green_lagrange, principal, det_F;
+};
+
+/// A deformable body on its own mesh, which every rank holds whole; work is shared by lists of cells.
+/// \tparam Law a SolidLaw, \tparam Formulation Displacement or MeanDilatation, \tparam Coordinates Cartesian
+/// or Axisymmetric, \tparam lanes cells worked on together.
+template <ReferenceElement Element_, SolidLaw Law_, class Formulation_ = Displacement,
+          class Coordinates_ = Cartesian, class Rule_ = DefaultQuadrature<Element_>, int lanes = default_lanes>
+class SolidBody {
+ public:
+  using Element = Element_;
+  using Law = Law_;
+  using Formulation = Formulation_;
+  using Coordinates = Coordinates_;
+  static constexpr int dim = Element::dim, n = Element::n_nodes, n_cell_dofs = n * dim;
+  using Parameters = SolidParameters<dim>;
+
+  Parameters parameters;  ///< may change between steps (gravity in time, say)
+
+  /// \throws Error (configuration) for densities or viscosities that are negative or not finite and for a
+  /// periodic mesh; (file) for cells that are inside out, or points at r < 0 of a body of revolution.
+  SolidBody(std::string name, GlobalMesh<Element> mesh, Law law, Parameters solid)
+      : parameters(solid), name_(std::move(name)), mesh_(std::move(mesh)), law_(std::move(law)) {
+    check_parameters();
+    check_mesh();
+  }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const GlobalMesh<Element>& mesh() const { return mesh_; }
+  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] int n_nodes() const { return mesh_.n_points(); }
+  [[nodiscard]] int n_dofs() const { return n_nodes() * dim; }
+  [[nodiscard]] int n_cells() const { return mesh_.n_cells(); }
+
+  [[nodiscard]] std::vector<int> all_cells() const {
+    std::vector<int> cells(n_cells());
+    std::iota(cells.begin(), cells.end(), 0);
+    return cells;
+  }
+  /// Number of a named boundary. \throws Error (configuration), with the nearest name, when there is none.
+  [[nodiscard]] int boundary(const std::string& boundary_name) const {
+    return find_name("boundary of solid '" + name_ + "'", boundary_name, mesh_.boundary_names);
+  }
+  /// Indices into mesh().boundary_faces.
+  [[nodiscard]] std::vector<int> faces_on(const std::string& boundary_name) const {
+    std::vector<int> faces;
+    const int wanted = boundary(boundary_name);
+    for (int f = 0; f < static_cast<int>(mesh_.boundary_faces.size()); ++f)
+      if (mesh_.boundary_faces[f].boundary == wanted) faces.push_back(f);
+    return faces;
+  }
+  /// Sorted nodes of a named boundary.
+  [[nodiscard]] std::vector<int> nodes_on(const std::string& boundary_name) const {
+    std::vector<int> nodes;
+    for (int f : faces_on(boundary_name)) {
+      const auto& face = mesh_.boundary_faces[f];
+      for (int a : Element::face_nodes(face.local_face)) nodes.push_back(mesh_.cells[face.cell][a]);
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+  }
+
+  /// Residual of method.md section 3 for each listed cell: sink(cell, R), R = n x dim numbers.
+  /// Cells that are inside out are reported and skipped.
+  template <class Sink>
+  DeformationReport residual(const SolidState& state, std::span<const int> cells, Sink&& sink) const {
+    alignas(64) double R[lanes][n_cell_dofs];
+    return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+      kernel.residual(parameters, [&](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); });
+      for (int l = 0; l < batch.n_cells; ++l)
+        if (batch.sound[l]) sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs));
+    });
+  }
+
+  /// The same with the tangent, sink(cell, R, K): K = slopes.u dR/du + slopes.v dR/dv + slopes.a dR/da as
+  /// n x n blocks of dim x dim numbers, block (a, b) from (a n + b) dim^2 on, row-major both.
+  template <class Sink>
+  DeformationReport residual_and_tangent(const SolidState& state, const StateSlopes& slopes,
+                                         std::span<const int> cells, Sink&& sink) const {
+    alignas(64) double R[lanes][n_cell_dofs];
+    alignas(64) double K[lanes][n_cell_dofs * n_cell_dofs];
+    return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+      kernel.residual_and_tangent(
+          parameters, slopes, [&](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); },
+          [&](int a, int b, const Mat<T, dim>& K_ab) {
+            unpack(K_ab.data, dim * dim, K, (a * n + b) * dim * dim);
+          });
+      for (int l = 0; l < batch.n_cells; ++l)
+        if (batch.sound[l])
+          sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs),
+               std::span<const double>(K[l], n_cell_dofs * n_cell_dofs));
+    });
+  }
+
+  /// Balances over the listed cells.
+  [[nodiscard]] SolidTotals<dim> totals(const SolidState& state, std::span<const int> cells) const {
+    SolidTotals<dim> sum;
+    sum.deformation = for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+      const auto cell = kernel.totals(parameters);
+      for (int l = 0; l < batch.n_cells; ++l) {
+        if (!batch.sound[l]) continue;
+        sum.volume += cell.volume[l];
+        sum.reference_volume += cell.reference_volume[l];
+        sum.elastic_energy += cell.elastic[l];
+        sum.kinetic_energy += cell.kinetic[l];
+        for (int i = 0; i < dim; ++i) sum.momentum[i] += cell.momentum[i][l];
+      }
+    });
+    return sum;
+  }
+
+  /// Dead traction (force per reference area) on the listed boundary faces: sink(nodes, R), external forces
+  /// with the sign of the residual, i.e. R = -force.
+  template <class Sink>
+  void add_traction(const Vec<double, dim>& traction, std::span<const int> faces, Sink&& sink) const {
+    for (int f : faces)
+      with_face(f, [&]<class Face>(const std::array<int, Face::n_nodes>& nodes) {
+        const auto r = SurfaceLoad<Face, Coordinates>::dead(positions(nodes, {}), traction);
+        sink(std::span<const int>(nodes), std::span<const double>(r.R[0].data, nodes.size() * dim));
+      });
+  }
+  /// Pressure that follows the surface (force per current area, inwards): sink(nodes, R, K), the blocks of K
+  /// as in residual_and_tangent.
+  template <class Sink>
+  void add_pressure(double pressure, std::span<const double> u, const StateSlopes& slopes,
+                    std::span<const int> faces, Sink&& sink) const {
+    for (int f : faces)
+      with_face(f, [&]<class Face>(const std::array<int, Face::n_nodes>& nodes) {
+        const auto r = SurfaceLoad<Face, Coordinates>::pressure(positions(nodes, u), pressure, slopes.u);
+        sink(std::span<const int>(nodes), std::span<const double>(r.R[0].data, nodes.size() * dim),
+             std::span<const double>(r.K[0][0].data, nodes.size() * nodes.size() * dim * dim));
+      });
+  }
+
+  /// Stress and strain, averaged over the cells around each node with weights int N_a dV.
+  [[nodiscard]] SolidFields fields(std::span<const double> u) const {
+    SolidFields f{std::vector<double>(6 * n_nodes()), std::vector<double>(6 * n_nodes()),
+                  std::vector<double>(3 * n_nodes()), std::vector<double>(n_nodes())};
+    std::vector<double> weight(n_nodes());
+    for_each_batch({u}, all_cells(), [&](const Kernel& kernel, const Batch& batch) {
+      const auto sigma = kernel.cauchy_stresses();
+      for (int q = 0; q < Rule_::n; ++q) {
+        const Mat<T, 3> F = kernel.deformation_gradient(q);
+        const Mat<T, 3> E = T(0.5) * (transpose(F) * F - Mat<T, 3>::identity());
+        const T J = det(F), dV = kernel.reference_volume(q);
+        for (int l = 0; l < batch.n_cells; ++l)
+          for (int a = 0; a < n; ++a) {
+            const int node = mesh_.cells[batch.cell[l]][a];
+            const double w = std::abs(BasisTable<Element, Rule_>::N[q][a]) * dV[l];
+            weight[node] += w;
+            f.det_F[node] += w * J[l];
+            for (int s = 0; s < 6; ++s) {
+              f.cauchy[6 * node + s] += w * sigma[q](voigt[s][0], voigt[s][1])[l];
+              f.green_lagrange[6 * node + s] += w * E(voigt[s][0], voigt[s][1])[l];
+            }
+          }
+      }
+    });
+    finish(f, weight);
+    return f;
+  }
+
+ private:
+  using T = Pack<lanes>;
+  using Kernel = SolidCell<Element, Law, Formulation, Coordinates, Rule_, T>;
+  static constexpr int voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
+
+  /// Cells worked on together; the last batch repeats its last cell in the lanes beyond n_cells.
+  struct Batch {
+    std::array<int, lanes> cell;
+    std::array<bool, lanes> sound;  ///< det F > 0 at every point
+    int n_cells;
+  };
+
+  template <class Visit>
+  DeformationReport for_each_batch(const SolidState& state, std::span<const int> cells, Visit&& visit) const {
+    DeformationReport report;
+    const int n_listed = static_cast<int>(cells.size());
+    for (int first = 0; first < n_listed; first += lanes) {
+      Batch batch;
+      batch.n_cells = std::min(lanes, n_listed - first);
+      for (int l = 0; l < lanes; ++l) batch.cell[l] = cells[first + std::min(l, batch.n_cells - 1)];
+      const SolidCellData<Element, T> data = gather(batch, state);
+      const Kernel kernel(data, law_);
+      for (int l = 0; l < batch.n_cells; ++l) {
+        batch.sound[l] = kernel.min_det_F()[l] > 0;
+        report.merge(kernel.min_det_F()[l], batch.cell[l]);
+      }
+      visit(kernel, batch);
+    }
+    return report;
+  }
+
+  [[nodiscard]] SolidCellData<Element, T> gather(const Batch& batch, const SolidState& state) const {
+    SolidCellData<Element, T> data;
+    for (int l = 0; l < lanes; ++l)
+      for (int a = 0; a < n; ++a) {
+        const int node = mesh_.cells[batch.cell[l]][a];
+        for (int i = 0; i < dim; ++i) {
+          const int dof = node * dim + i;
+          data.X[a][i].set(l, mesh_.points[node][i]);
+          data.u[a][i].set(l, state.u[dof]);
+          data.v[a][i].set(l, state.v.empty() ? 0.0 : state.v[dof]);
+          data.a[a][i].set(l, state.a.empty() ? 0.0 : state.a[dof]);
+        }
+      }
+    return data;
+  }
+
+  /// Lane l of m packs goes to the row of cell l, from `offset` on.
+  template <int columns>
+  static void unpack(const T* values, int m, double (*rows)[columns], int offset) {
+    for (int k = 0; k < m; ++k)
+      for (int l = 0; l < lanes; ++l) rows[l][offset + k] = values[k][l];
+  }
+
+  /// Calls visit<Face>(nodes) with the element and the nodes of boundary face f.
+  template <class Visit>
+  void with_face(int f, Visit&& visit) const {
+    const auto& face = mesh_.boundary_faces[f];
+    const auto collect = [&]<class Face>() {
+      std::array<int, Face::n_nodes> nodes;
+      for (int k = 0; k < Face::n_nodes; ++k)
+        nodes[k] = mesh_.cells[face.cell][Element::face_nodes(face.local_face)[k]];
+      visit.template operator()<Face>(nodes);
+    };
+    if constexpr (requires { typename Element::OtherFace; }) {
+      if (Element::face_shape(face.local_face) == Element::OtherFace::shape)
+        return collect.template operator()<typename Element::OtherFace>();
+    }
+    collect.template operator()<typename Element::Face>();
+  }
+
+  /// Reference (no u) or current positions.
+  template <std::size_t m>
+  [[nodiscard]] std::array<Vec<double, dim>, m> positions(const std::array<int, m>& nodes,
+                                                          std::span<const double> u) const {
+    std::array<Vec<double, dim>, m> x;
+    for (std::size_t k = 0; k < m; ++k) {
+      x[k] = mesh_.points[nodes[k]];
+      if (!u.empty())
+        for (int i = 0; i < dim; ++i) x[k][i] += u[nodes[k] * dim + i];
+    }
+    return x;
+  }
+
+  void finish(SolidFields& f, const std::vector<double>& weight) const {
+    for (int a = 0; a < n_nodes(); ++a) {
+      if (weight[a] == 0) continue;
+      f.det_F[a] /= weight[a];
+      Mat<double, 3> sigma;
+      for (int s = 0; s < 6; ++s) {
+        f.green_lagrange[6 * a + s] /= weight[a];
+        f.cauchy[6 * a + s] /= weight[a];
+        sigma(voigt[s][0], voigt[s][1]) = sigma(voigt[s][1], voigt[s][0]) = f.cauchy[6 * a + s];
+      }
+      const auto values = principal_values(sigma);
+      std::copy(values.begin(), values.end(), f.principal.begin() + 3 * a);
+    }
+  }
+
+  void check_parameters() const {
+    const std::pair<const char*, double> not_negative[] = {{"rho_s", parameters.rho_s},
+                                                           {"rho_f", parameters.rho_f},
+                                                           {"mu_f", parameters.mu_f},
+                                                           {"mu_s", parameters.mu_s}};
+    for (const auto& [key, value] : not_negative)
+      if (!(value >= 0 && std::isfinite(value)))
+        throw Error(ExitCode::configuration, "solid '" + name_ + "': " + key + " = " + std::to_string(value) +
+                                                 ", expected a finite number >= 0");
+  }
+
+  void check_mesh() const {
+    if (!mesh_.point_node.empty())
+      throw Error(ExitCode::configuration, "solid '" + name_ + "': the mesh of a solid cannot be periodic");
+    if (mesh_.cells.empty()) throw Error(ExitCode::file, "solid '" + name_ + "': the mesh has no cells");
+    for (int c = 0; c < n_cells(); ++c) {
+      const auto X = mesh_.cell_coordinates(c);
+      for (int q = 0; q < Rule_::n; ++q) {
+        const double J = det(jacobian(BasisTable<Element, Rule_>::dN[q], X));
+        if (!(J > 0)) bad_cell(c, "is inside out: its Jacobian determinant is " + std::to_string(J));
+      }
+      if constexpr (Coordinates::axisymmetric)
+        for (const auto& x : X)
+          if (!(x[0] >= 0)) bad_cell(c, "of a body of revolution reaches r = " + std::to_string(x[0]));
+    }
+  }
+  [[noreturn]] void bad_cell(int c, const std::string& what) const {
+    std::string at;
+    for (double x : mesh_.points[mesh_.cells[c][0]].data) at += (at.empty() ? "" : ", ") + std::to_string(x);
+    throw Error(ExitCode::file,
+                "solid '" + name_ + "': cell " + std::to_string(c) + " at (" + at + ") " + what);
+  }
+
+  std::string name_;
+  GlobalMesh<Element> mesh_;
+  Law law_;
+};
+
+}  // namespace ifsi

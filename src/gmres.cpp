@@ -1,0 +1,256 @@
+#include "ifsi/linalg/gmres.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "ifsi/core/error.hpp"
+#include "ifsi/linalg/aligned.hpp"
+
+namespace ifsi {
+namespace {
+
+using Array = AlignedVector<double>;
+
+/// Entries worked on together, so that a vector stays in the first-level cache while all basis vectors pass.
+constexpr long chunk = 1024;
+
+double dot(const double* x, const double* y, long n) {
+  double sum[8] = {};
+  long i = 0;
+  for (; i + 8 <= n; i += 8)
+    for (int l = 0; l < 8; ++l) sum[l] += x[i + l] * y[i + l];
+  for (; i < n; ++i) sum[0] += x[i] * y[i];
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+/// One solve: Krylov basis V, preconditioned directions Z, and the small least-squares problem R y = g.
+class Fgmres {
+ public:
+  Fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& P, const GmresOptions& options)
+      : comm_(layout.communicator()),
+        A_(A),
+        P_(P),
+        options_(options),
+        block_(block),
+        n_(static_cast<long>(layout.n_owned()) * block),
+        n_local_(static_cast<long>(layout.n_local()) * block),
+        residual_(n_local_),
+        work_(n_local_) {}
+
+  SolverReport solve(const double* b, double* x) {
+    compute_residual(b, x);
+    report_.target = options_.target;
+    report_.initial = norms(residual_.data());
+    set_references();
+    update_report(report_.initial);
+    while (!report_.converged && report_.iterations < options_.max_iterations) {
+      const bool stuck = cycle(x);
+      compute_residual(b, x);
+      update_report(norms(residual_.data()));
+      if (stuck) break;
+    }
+    if (!report_.converged) explain();
+    return report_;
+  }
+
+ private:
+  void compute_residual(const double* b, double* x) {
+    A_(x, residual_.data());
+    for (long i = 0; i < n_; ++i) residual_[i] = b[i] - residual_[i];
+  }
+
+  [[nodiscard]] BlockNorms norms(const double* r) const {
+    double sums[2] = {0, 0};
+    for (long i = 0; i < n_; i += block_)
+      for (int c = 0; c < block_; ++c) sums[c == options_.mass_component] += r[i + c] * r[i + c];
+    comm_.sum_in_place(sums, 2);
+    check_finite(sums[0] + sums[1]);
+    return {std::sqrt(sums[0]), std::sqrt(sums[1])};
+  }
+
+  void check_finite(double number) const {
+    if (std::isfinite(number)) return;
+    throw Error(ExitCode::linear_solver,
+                "GMRES: NaN or infinity after " + std::to_string(report_.iterations) +
+                    " iterations; expected finite numbers in matrix, right-hand side and preconditioner");
+  }
+
+  /// A target of zero is never met; the smallest number keeps the division defined.
+  void set_references() {
+    constexpr double tiny = 1e-300;
+    reference_.assign(block_, std::max(options_.target.momentum, tiny));
+    if (options_.mass_component >= 0) reference_[options_.mass_component] = std::max(options_.target.mass, tiny);
+  }
+
+  void update_report(BlockNorms r) {
+    report_.residual = r;
+    report_.converged = r.momentum <= options_.target.momentum && r.mass <= options_.target.mass;
+  }
+
+  void explain() {
+    const auto part = [](double now, double start, double target) {
+      std::ostringstream text;
+      text << start << " -> " << now << " (target " << target << ')';
+      return text.str();
+    };
+    report_.message = "GMRES stopped after " + std::to_string(report_.iterations) + " iterations, momentum " +
+                      part(report_.residual.momentum, report_.initial.momentum, report_.target.momentum) +
+                      ", mass " + part(report_.residual.mass, report_.initial.mass, report_.target.mass);
+  }
+
+  /// One restart cycle: improves x from residual_. True when the Krylov space cannot grow any further.
+  bool cycle(double* x) {
+    const int m = std::min(options_.restart, options_.max_iterations - report_.iterations);
+    R_.clear();
+    rotations_.clear();
+    for (long i = 0; i < n_; ++i) residual_[i] /= reference_[i % block_];
+    g_.assign(1, std::sqrt(sum_of_squares(residual_)));
+    scale_into(0, residual_, 1 / g_[0]);
+    std::copy_n(V_[0].begin(), n_, residual_.begin());
+    bool stuck = false;
+    report_.converged = false;
+    while (static_cast<int>(R_.size()) < m && !report_.converged && !stuck) stuck = !extend();
+    add_correction(x);
+    return stuck;
+  }
+
+  [[nodiscard]] double sum_of_squares(const Array& x) const { return comm_.sum(dot(x.data(), x.data(), n_)); }
+
+  /// V_k = scale x.
+  void scale_into(int k, const Array& x, double scale) {
+    if (static_cast<int>(V_.size()) <= k) V_.emplace_back(n_local_);
+    for (long i = 0; i < n_; ++i) V_[k][i] = scale * x[i];
+  }
+
+  /// One step of the Arnoldi process: direction z = P v, new basis vector from A z. False on breakdown.
+  bool extend() {
+    const int k = static_cast<int>(R_.size());
+    if (static_cast<int>(Z_.size()) <= k) Z_.emplace_back(n_local_);
+    for (long i = 0; i < n_; ++i) work_[i] = V_[k][i] * reference_[i % block_];
+    P_(work_.data(), Z_[k].data());
+    A_(Z_[k].data(), work_.data());
+    for (long i = 0; i < n_; ++i) work_[i] /= reference_[i % block_];
+    ++report_.iterations;
+    std::vector<double> h(k + 2, 0.0);
+    const double size = orthogonalise(k + 1, h);
+    const bool independent = h[k + 1] > 1e-14 * size;
+    if (!independent) h[k + 1] = 0;
+    scale_into(k + 1, work_, independent ? 1 / h[k + 1] : 0.0);
+    rotate(h);
+    R_.push_back(std::move(h));
+    update_residual(k);
+    return independent;
+  }
+
+  /// Removes the parts of work_ along V_0 .. V_{m-1}, collected in h; h[m] is what remains of its norm.
+  /// Returns the norm before. A pass that loses more than half the length is repeated ("twice is enough").
+  double orthogonalise(int m, std::vector<double>& h) {
+    std::vector<double> part(m + 1);
+    double before = 0;
+    for (int pass = 0; pass < 3; ++pass) {
+      project(m, part);
+      comm_.sum_in_place(part.data(), m + 1);
+      check_finite(part[m]);
+      const double squared = part[m];
+      double left = squared;
+      for (int j = 0; j < m; ++j) {
+        left -= part[j] * part[j];
+        h[j] += part[j];
+      }
+      subtract(m, part);
+      h[m] = std::sqrt(std::max(left, 0.0));
+      if (pass == 0) before = std::sqrt(squared);
+      if (left > 0.25 * squared || squared == 0) break;
+    }
+    return before;
+  }
+
+  /// part[j] = V_j . work_ for j < m, part[m] = work_ . work_, on this rank.
+  void project(int m, std::vector<double>& part) const {
+    std::fill(part.begin(), part.end(), 0.0);
+    for (long i = 0; i < n_; i += chunk) {
+      const long size = std::min(chunk, n_ - i);
+      for (int j = 0; j < m; ++j) part[j] += dot(&V_[j][i], &work_[i], size);
+      part[m] += dot(&work_[i], &work_[i], size);
+    }
+  }
+
+  /// work_ -= sum_j part[j] V_j.
+  void subtract(int m, const std::vector<double>& part) {
+    for (long i = 0; i < n_; i += chunk)
+      for (int j = 0; j < m; ++j)
+        for (long l = i, end = std::min(i + chunk, n_); l < end; ++l) work_[l] -= part[j] * V_[j][l];
+  }
+
+  /// Applies the old Givens rotations to column h, and a new one that clears its last entry.
+  void rotate(std::vector<double>& h) {
+    const int k = static_cast<int>(rotations_.size());
+    for (int j = 0; j < k; ++j) {
+      const auto [c, s] = rotations_[j];
+      const double t = c * h[j] + s * h[j + 1];
+      h[j + 1] = -s * h[j] + c * h[j + 1];
+      h[j] = t;
+    }
+    const double length = std::hypot(h[k], h[k + 1]);
+    const Rotation r = length > 0 ? Rotation{h[k] / length, h[k + 1] / length} : Rotation{0, 1};
+    h[k] = length;
+    g_.push_back(-r.s * g_[k]);
+    g_[k] *= r.c;
+    rotations_.push_back(r);
+  }
+
+  /// The residual is g_{k+1} q_{k+1} with the unit vector q_{k+1} = -s q_k + c v_{k+1}: its two blocks are known
+  /// at every step without forming b - A x.
+  void update_residual(int k) {
+    const auto [c, s] = rotations_[k];
+    for (long i = 0; i < n_; ++i) residual_[i] = c * V_[k + 1][i] - s * residual_[i];
+    const BlockNorms q = norms(residual_.data());
+    const double g = std::abs(g_[k + 1]);
+    const double mass_reference = reference_[std::max(options_.mass_component, 0)];
+    const double momentum_reference = reference_[options_.mass_component == 0 ? block_ - 1 : 0];
+    update_report({g * q.momentum * momentum_reference, g * q.mass * mass_reference});
+  }
+
+  /// x += Z y with R y = g. A zero pivot (singular A on the space) contributes nothing.
+  void add_correction(double* x) {
+    const int k = static_cast<int>(R_.size());
+    std::vector<double> y(k);
+    for (int i = k - 1; i >= 0; --i) {
+      double sum = g_[i];
+      for (int j = i + 1; j < k; ++j) sum -= R_[j][i] * y[j];
+      y[i] = R_[i][i] != 0 ? sum / R_[i][i] : 0.0;
+    }
+    for (long i = 0; i < n_; i += chunk)
+      for (int j = 0; j < k; ++j)
+        for (long l = i, end = std::min(i + chunk, n_); l < end; ++l) x[l] += y[j] * Z_[j][l];
+  }
+
+  struct Rotation {
+    double c, s;
+  };
+
+  Communicator comm_;
+  const LinearMap& A_;
+  const LinearMap& P_;
+  GmresOptions options_;
+  int block_;
+  long n_, n_local_;
+  Array residual_;  ///< b - A x between cycles, the unit vector q within one
+  Array work_;
+  std::vector<Array> V_, Z_;
+  std::vector<std::vector<double>> R_;  ///< columns of the Hessenberg matrix, rotated to triangular form
+  std::vector<double> g_;
+  std::vector<Rotation> rotations_;
+  std::vector<double> reference_;  ///< per component of the block
+  SolverReport report_;
+};
+
+}  // namespace
+
+SolverReport fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& preconditioner,
+                    const double* b, double* x, const GmresOptions& options) {
+  return Fgmres(layout, block, A, preconditioner, options).solve(b, x);
+}
+
+}  // namespace ifsi
