@@ -1,5 +1,6 @@
 #include "ifsi/linalg/gmres.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -39,10 +40,12 @@ class Fgmres {
         work_(n_local_) {}
 
   SolverReport solve(const double* b, double* x) {
-    compute_residual(b, x);
-    report_.target = options_.target;
+    if (is_zero(x))
+      std::copy_n(b, n_, residual_.begin());
+    else
+      compute_residual(b, x);
     report_.initial = norms(residual_.data());
-    set_references();
+    set_target();
     update_report(report_.initial);
     while (!report_.converged && report_.iterations < options_.max_iterations) {
       const bool stuck = cycle(x);
@@ -76,16 +79,27 @@ class Fgmres {
                     " iterations; expected finite numbers in matrix, right-hand side and preconditioner");
   }
 
-  /// A target of zero is never met; the smallest number keeps the division defined.
-  void set_references() {
-    constexpr double tiny = 1e-300;
-    reference_.assign(block_, std::max(options_.target.momentum, tiny));
-    if (options_.mass_component >= 0) reference_[options_.mass_component] = std::max(options_.target.mass, tiny);
+  [[nodiscard]] bool is_zero(const double* x) const {
+    return !comm_.any(std::any_of(x, x + n_, [](double value) { return value != 0; }));
+  }
+
+  /// A target of zero is never met; the smallest number keeps the division by it defined.
+  void set_target() {
+    constexpr double floor = 1e-3, tiny = 1e-300;
+    const SolveTarget& goal = options_.target;
+    const BlockNorms& r = report_.initial;
+    const double momentum = std::max(r.momentum, floor * r.mass / options_.mass_per_momentum);
+    const double mass = std::max(r.mass, floor * r.momentum * options_.mass_per_momentum);
+    report_.target = {std::max(goal.relative.momentum * momentum, goal.absolute.momentum),
+                      std::max(goal.relative.mass * mass, goal.absolute.mass)};
+    reference_.assign(block_, std::max(report_.target.momentum, tiny));
+    if (options_.mass_component >= 0)
+      reference_[options_.mass_component] = std::max(report_.target.mass, tiny);
   }
 
   void update_report(BlockNorms r) {
     report_.residual = r;
-    report_.converged = r.momentum <= options_.target.momentum && r.mass <= options_.target.mass;
+    report_.converged = r.momentum <= report_.target.momentum && r.mass <= report_.target.mass;
   }
 
   void explain() {
@@ -127,7 +141,9 @@ class Fgmres {
   bool extend() {
     const int k = static_cast<int>(R_.size());
     if (static_cast<int>(Z_.size()) <= k) Z_.emplace_back(n_local_);
-    for (long i = 0; i < n_; ++i) work_[i] = V_[k][i] * reference_[i % block_];
+    // Any scale of z_k will do; numbers near one suit preconditioners in single precision.
+    const double scale = 1 / *std::max_element(reference_.begin(), reference_.end());
+    for (long i = 0; i < n_; ++i) work_[i] = scale * V_[k][i] * reference_[i % block_];
     P_(work_.data(), Z_[k].data());
     A_(Z_[k].data(), work_.data());
     for (long i = 0; i < n_; ++i) work_[i] /= reference_[i % block_];
@@ -200,8 +216,8 @@ class Fgmres {
     rotations_.push_back(r);
   }
 
-  /// The residual is g_{k+1} q_{k+1} with the unit vector q_{k+1} = -s q_k + c v_{k+1}: its two blocks are known
-  /// at every step without forming b - A x.
+  /// The residual is g_{k+1} q_{k+1} with the unit vector q_{k+1} = -s q_k + c v_{k+1}: its two blocks are
+  /// known at every step without forming b - A x.
   void update_residual(int k) {
     const auto [c, s] = rotations_[k];
     for (long i = 0; i < n_; ++i) residual_[i] = c * V_[k + 1][i] - s * residual_[i];
@@ -247,6 +263,13 @@ class Fgmres {
 };
 
 }  // namespace
+
+double SolverReport::decades() const {
+  const auto distance = [](double start, double goal) {
+    return start > goal ? std::log10(start / goal) : 0.0;
+  };
+  return std::max(distance(initial.momentum, target.momentum), distance(initial.mass, target.mass));
+}
 
 SolverReport fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& preconditioner,
                     const double* b, double* x, const GmresOptions& options) {

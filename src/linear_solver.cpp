@@ -7,12 +7,14 @@
 #include "ifsi/core/error.hpp"
 #include "ifsi/linalg/direct.hpp"
 #include "ifsi/linalg/reuse.hpp"
+#include "ifsi/linalg/saddle_preconditioner.hpp"
 
 namespace ifsi {
 namespace {
 
-/// Most unknowns for which LU beats GMRES.
-constexpr long direct_limit(int B) { return B == 3 ? 100'000 : 3'000; }
+/// Most unknowns for which LU is the first choice, and for which it is at hand when GMRES fails.
+constexpr long direct_limit(int B) { return B == 3 ? 15'000 : 3'000; }
+constexpr long fallback_limit(int B) { return B == 3 ? 400'000 : 40'000; }
 
 /// Removes the mean of the last component: the constant pressure.
 template <int B>
@@ -23,8 +25,8 @@ void project_pressure(const Layout& layout, double* x) {
   for (int i = 0; i < layout.n_owned(); ++i) x[static_cast<long>(i) * B + B - 1] -= mean;
 }
 
-/// Mean size of the divergence rows over the mean size of the velocity diagonal: what a velocity correction that
-/// cancels a unit momentum residual does to the mass residual.
+/// Mean size of the divergence rows over the mean size of the velocity diagonal: what a velocity correction
+/// that cancels a unit momentum residual does to the mass residual.
 template <int B>
 double mass_per_momentum(const BlockCsr<B>& K) {
   double sums[2] = {0, 0};
@@ -47,10 +49,13 @@ double mass_per_momentum(const BlockCsr<B>& K) {
 template <int B>
 class LinearSolver<B>::Impl {
  public:
-  Impl(LinearSolverOptions o, SchurProvider schur) : options_(std::move(o)), schur_(std::move(schur)) {
+  Impl(LinearSolverOptions o, SchurProvider schur)
+      : options_(std::move(o)),
+        schur_(std::move(schur)),
+        saddle_({.velocity = options_.velocity, .enclosed = options_.enclosed}) {
     if (options_.method != "auto" && options_.method != "direct" && options_.method != "gmres")
-      throw Error(ExitCode::configuration,
-                  "linear solver: unknown method \"" + options_.method + "\"; expected auto, direct or gmres");
+      throw Error(ExitCode::configuration, "linear solver: unknown method \"" + options_.method +
+                                               "\"; expected auto, direct or gmres");
   }
 
   SolverReport solve(const BlockCsr<B>& K, std::span<const double> rhs, std::span<double> x,
@@ -60,15 +65,19 @@ class LinearSolver<B>::Impl {
     if (options_.enclosed) project_pressure<B>(K.layout(), rhs_.data());
     const bool fresh = !options_.reuse || reuse_.due();
     if (fresh) renew(K);
-    const GmresOptions goal = absolute_target(K, x.data(), target);
     start_.assign(x.begin(), x.end());
-    SolverReport report = run(K, x.data(), goal, fresh ? options_.max_iterations : reuse_.patience());
+    SolverReport report = run(K, x.data(), target, fresh);
     if (!report.converged && !fresh) {
       std::copy(start_.begin(), start_.end(), x.begin());
       renew(K);
-      report = run(K, x.data(), goal, options_.max_iterations);
+      report = run(K, x.data(), target, true);
     }
-    reuse_.record(report.iterations);
+    if (!report.converged && may_fall_back(K)) {
+      std::copy(start_.begin(), start_.end(), x.begin());
+      renew(K);
+      report = run(K, x.data(), target, true);
+    }
+    reuse_.record(report.iterations, report.decades());
     if (!report.converged) reuse_.invalidate();
     K.layout().update_ghosts(x.data(), B);
     return report;
@@ -79,55 +88,72 @@ class LinearSolver<B>::Impl {
   void invalidate() { reuse_.invalidate(); }
 
  private:
+  static std::string size_text(const BlockCsr<B>& K) {
+    return ", " + std::to_string(K.layout().n_global() * B) + " unknowns in " + std::to_string(B - 1) + "D: ";
+  }
+  static std::string describe_direct(const BlockCsr<B>& K, const std::string& why) {
+    return "direct (UMFPACK, kept as preconditioner of GMRES while it pays)" + size_text(K) + why;
+  }
+
   void choose(const BlockCsr<B>& K) {
-    if (!description.empty()) return;
+    if (!choice_.empty()) return;
     const long n = K.layout().n_global() * B;
-    use_direct_ = options_.method == "direct" ||
-                  (options_.method == "auto" && (n <= direct_limit(B) || !schur_));
+    use_direct_ =
+        options_.method == "direct" || (options_.method == "auto" && (n <= direct_limit(B) || !schur_));
     if (!use_direct_ && !schur_)
-      throw Error(ExitCode::configuration, "linear solver: method gmres needs the parts of the Schur complement");
+      throw Error(ExitCode::configuration,
+                  "linear solver: method gmres needs the parts of the Schur complement");
+    const std::string limit = std::to_string(direct_limit(B));
     const std::string why = options_.method != "auto" ? "as asked for"
-                            : !schur_                                 ? "no preconditioner given"
-                            : use_direct_                             ? "at most " + std::to_string(direct_limit(B))
-                                                                      : "more than " + std::to_string(direct_limit(B));
-    description = std::string(use_direct_ ? "direct (UMFPACK, kept as preconditioner of GMRES while it pays)"
-                                          : "GMRES with block preconditioner") +
-                  ", " + std::to_string(n) + " unknowns in " + std::to_string(B - 1) + "D: " + why;
+                            : !schur_                 ? "no preconditioner given"
+                            : use_direct_             ? "at most " + limit
+                                                      : "more than " + limit;
+    choice_ = use_direct_ ? describe_direct(K, why) : "GMRES with block preconditioner" + size_text(K) + why;
+    description = choice_;
+  }
+
+  /// Where the block preconditioner fails, LU takes over for good, if the size allows.
+  bool may_fall_back(const BlockCsr<B>& K) {
+    if (use_direct_ || options_.method != "auto" || K.layout().n_global() * B > fallback_limit(B))
+      return false;
+    use_direct_ = true;
+    choice_ = describe_direct(K, "GMRES with block preconditioner did not converge");
+    description = choice_;
+    return true;
   }
 
   void renew(const BlockCsr<B>& K) {
-    // With the pressure level free the last unknown of node 0 is pinned; the projection undoes that choice.
-    direct_.factor(K, options_.enclosed ? B - 1 : -1);
-    const DirectSolver::Cost& cost = direct_.cost();
-    reuse_.renewed(std::max(5.0, cost.flops / (20 * cost.lu_entries)));
     mass_per_momentum_ = mass_per_momentum(K);
     ++total_setups;
+    if (!use_direct_) {
+      saddle_.update(K, schur_());
+      reuse_.renewed(saddle_.setup_cost());
+      description = choice_ + "; " + saddle_.description();
+      return;
+    }
+    // With the pressure level free the last unknown of node 0 is pinned; the projection undoes that choice.
+    direct_.factor(K, options_.enclosed ? B - 1 : -1);
+    reuse_.renewed(direct_.setup_cost());
   }
 
-  /// Relative targets refer to the initial residual of the same block, or to a thousandth of what the other block
-  /// would leave behind in this one.
-  GmresOptions absolute_target(const BlockCsr<B>& K, double* x, const SolveTarget& target) {
-    std::vector<double> residual(rhs_.size());
-    K.apply(x, residual.data());
-    for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = rhs_[i] - residual[i];
-    const BlockNorms r = block_norms<B>(K.layout(), residual);
-    constexpr double floor = 1e-3;
-    const double momentum = std::max(r.momentum, floor * r.mass / mass_per_momentum_);
-    const double mass = std::max(r.mass, floor * r.momentum * mass_per_momentum_);
-    GmresOptions goal;
-    goal.target = {std::max(target.relative.momentum * momentum, target.absolute.momentum),
-                   std::max(target.relative.mass * mass, target.absolute.mass)};
-    return goal;
-  }
-
-  SolverReport run(const BlockCsr<B>& K, double* x, GmresOptions gmres, int max_iterations) {
+  SolverReport run(const BlockCsr<B>& K, double* x, const SolveTarget& target, bool fresh) {
     const Layout& layout = K.layout();
     const LinearMap preconditioner = [&](double* r, double* z) {
       if (options_.enclosed) project_pressure<B>(layout, r);
-      direct_.apply(r, z);
+      if (use_direct_)
+        direct_.apply(r, z);
+      else
+        saddle_.apply(r, z);
       if (options_.enclosed) project_pressure<B>(layout, z);
     };
-    gmres.max_iterations = std::min(max_iterations, options_.max_iterations);
+    GmresOptions gmres;
+    gmres.target = target;
+    gmres.mass_per_momentum = mass_per_momentum_;
+    gmres.max_iterations = options_.max_iterations;
+    if (!fresh) {
+      const double decades = -std::log10(std::min(target.relative.momentum, target.relative.mass));
+      gmres.max_iterations = std::min(gmres.max_iterations, reuse_.patience(decades));
+    }
     gmres.restart = options_.restart;
     gmres.mass_component = B - 1;
     const SolverReport report = fgmres(layout, B, linear_map(K), preconditioner, rhs_.data(), x, gmres);
@@ -137,8 +163,10 @@ class LinearSolver<B>::Impl {
 
   LinearSolverOptions options_;
   SchurProvider schur_;
+  std::string choice_;
   bool use_direct_ = true;
   DirectSolver direct_;
+  SaddlePreconditioner<B> saddle_;
   ReusePolicy reuse_;
   double mass_per_momentum_ = 1;
   std::vector<double> rhs_, start_;

@@ -81,11 +81,16 @@ void Console::progress(double done, const std::string& text) {
     std::fputs(("\r\033[K" + shown).c_str(), stdout);
     std::fflush(stdout);
     progress_shown_ = true;
-  } else if (done >= printed_done_ + file_progress_part || elapsed() >= printed_at_ + file_progress_seconds) {
+  } else if (line_due(done)) {
     print(shown);
     printed_done_ = done;
     printed_at_ = elapsed();
   }
+}
+
+bool Console::line_due(double done) const {
+  return done >= 1.0 || done >= printed_done_ + file_progress_part ||
+         elapsed() >= printed_at_ + file_progress_seconds;
 }
 
 }  // namespace ifsi::detail

@@ -27,6 +27,7 @@ class Console {
   void print(const std::string& text);
   void clear_progress();
   [[nodiscard]] std::string time_left(double done);
+  [[nodiscard]] bool line_due(double done) const;
 
   bool verbose_, terminal_;
   std::ofstream log_;

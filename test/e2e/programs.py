@@ -34,7 +34,7 @@ def run(case, *options, ranks=1, out=None, config=None, timeout=200):
         if ranks > 1:
             command = [os.environ["IFSI_MPIEXEC"], "-q", "--oversubscribe", "-n", str(ranks), *command]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
-                              timeout=timeout)
+                              timeout=timeout, cwd=ROOT)
         summary = pathlib.Path(out) / "summary.json"
         files = sorted(p.name for p in pathlib.Path(out).iterdir()) if pathlib.Path(out).is_dir() else []
         return Outcome(done.returncode, done.stdout, json.loads(summary.read_text()) if summary.exists() else {}, files)

@@ -26,7 +26,8 @@ struct PointGeometry {
   std::array<Vec<T, E::dim>, E::n_nodes> grad_N;
   std::array<T, E::n_nodes> lap_N;
 
-  PointGeometry(const Vec<double, E::dim>& xi, const std::array<Vec<T, E::dim>, E::n_nodes>& X) {
+  [[gnu::noinline]] PointGeometry(const Vec<double, E::dim>& xi,
+                                  const std::array<Vec<T, E::dim>, E::n_nodes>& X) {
     E::shape_functions(xi, N);
     E::gradients(xi, dN);
     E::hessians(xi, ddN);

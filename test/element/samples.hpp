@@ -39,7 +39,8 @@ inline double uniform(std::mt19937& random, double low, double high) {
 
 /// A random point whose distance E::outside to the reference cell lies in [low, high].
 template <class E>
-Vec<double, E::dim> random_point(std::mt19937& random, double low = -1.0, double high = 0.0) {
+[[gnu::noinline]] Vec<double, E::dim> random_point(std::mt19937& random, double low = -1.0,
+                                                   double high = 0.0) {
   Vec<double, E::dim> xi{};
   do
     for (int i = 0; i < E::dim; ++i)
@@ -49,7 +50,7 @@ Vec<double, E::dim> random_point(std::mt19937& random, double low = -1.0, double
 }
 
 template <class E>
-CellNodes<E> gradients_at(const Vec<double, E::dim>& xi) {
+[[gnu::noinline]] CellNodes<E> gradients_at(const Vec<double, E::dim>& xi) {
   CellNodes<E> dN;
   E::gradients(xi, dN);
   return dN;
@@ -57,7 +58,7 @@ CellNodes<E> gradients_at(const Vec<double, E::dim>& xi) {
 
 /// Smallest det J on a lattice of the reference cell.
 template <class E>
-double smallest_det(const CellNodes<E>& X, int points_per_axis = 9) {
+[[gnu::noinline]] double smallest_det(const CellNodes<E>& X, int points_per_axis = 9) {
   double smallest = 1e300;
   for (int q = 0; q < detail::power(points_per_axis, E::dim); ++q) {
     Vec<double, E::dim> xi;
@@ -70,7 +71,7 @@ double smallest_det(const CellNodes<E>& X, int points_per_axis = 9) {
 
 /// The reference cell with every node moved by up to `amplitude`, tried again until det J > 0.05 everywhere.
 template <class E>
-CellNodes<E> random_cell(std::mt19937& random, double amplitude) {
+[[gnu::noinline]] CellNodes<E> random_cell(std::mt19937& random, double amplitude) {
   CellNodes<E> X;
   do
     for (int a = 0; a < E::n_nodes; ++a)

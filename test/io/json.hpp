@@ -16,8 +16,8 @@ struct Json {
   enum class Kind { null, boolean, number, string, array, object } kind = Kind::null;
   bool boolean = false;
   double number = 0.0;
-  std::string string;
-  std::vector<std::pair<std::string, Json>> members;  // of objects in order; of arrays with empty names
+  std::string string{};
+  std::vector<std::pair<std::string, Json>> members{};  // of objects in order; of arrays with empty names
 
   const Json& operator[](const std::string& name) const {
     for (const auto& [key, value] : members)

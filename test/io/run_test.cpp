@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <limits>
@@ -19,6 +20,7 @@ using test::read_json;
 
 class RunCase : public testing::Test {
  protected:
+  using Run = ifsi::Run;  // not testing::Test::Run
   test::ScratchFolder folder;
   std::string out, err;
   double re = 40.0;

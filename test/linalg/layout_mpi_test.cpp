@@ -16,7 +16,8 @@ struct Ring {
     for (int r = 0; r < comm.size(); ++r) first.push_back(first.back() + 5 + r);
     const long n = first.back(), a = first[comm.rank()], b = first[comm.rank() + 1];
     for (long g : {(b + 1) % n, b % n, (a + n - 1) % n, (a + n - 2) % n, (b + 4) % n})
-      if ((g < a || g >= b) && std::find(ghosts.begin(), ghosts.end(), g) == ghosts.end()) ghosts.push_back(g);
+      if ((g < a || g >= b) && std::find(ghosts.begin(), ghosts.end(), g) == ghosts.end())
+        ghosts.push_back(g);
     layout = Layout(comm, 5 + comm.rank(), ghosts);
   }
 };
@@ -65,7 +66,8 @@ TEST(Layout, AddingToOwnersIsTheTransposeOfUpdatingGhosts) {
 TEST(Layout, RefusesGhostsThatNobodyElseOwns) {
   const Communicator comm;
   EXPECT_THROW(Layout(comm, 4, {comm.rank() * 4L}), Error);
-  EXPECT_THROW(Layout(comm, 4, {comm.rank() == 0 ? 4L * comm.size() : (comm.rank() * 4L + 4) % (4L * comm.size())}),
-               Error);
+  EXPECT_THROW(
+      Layout(comm, 4, {comm.rank() == 0 ? 4L * comm.size() : (comm.rank() * 4L + 4) % (4L * comm.size())}),
+      Error);
 }
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
-// A small flow-like saddle system on a grid of Q1 cells of the unit square or cube, spread over the ranks in slabs:
-// K = [A G; D L] with A = c M + nu (grad, grad) + (b.grad), D = (q, div v), G = -D^T, L = tau (grad, grad).
-// Built from one-dimensional mass, stiffness and first-derivative matrices, so the oracle needs no elements.
+// A small flow-like saddle system on a grid of Q1 cells of the unit square or cube, spread over the ranks in
+// slabs: K = [A G; D L] with A = c M + nu (grad, grad) + (b.grad), D = (q, div v), G = -D^T, L = tau (grad,
+// grad). Built from one-dimensional mass, stiffness and first-derivative matrices, so the oracle needs no
+// elements.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -11,19 +12,19 @@
 namespace ifsi::test {
 
 struct StokesOptions {
-  int cells = 6;               // per direction
-  double rho_c = 10;           // rho / (gamma dt)
+  int cells = 6;      // per direction
+  double rho_c = 10;  // rho / (gamma dt)
   double viscosity = 1;
-  double wind = 0;             // convection with the constant velocity wind * (1, .5, .25)
-  bool enclosed = false;       // true: velocity prescribed on the whole boundary; else free at x = 1
+  double wind = 0;        // convection with the constant velocity wind * (1, .5, .25)
+  bool enclosed = false;  // true: velocity prescribed on the whole boundary; else free at x = 1
 };
 
 /// Slab distribution of (n+1)^dim grid nodes along the last axis.
 template <int dim>
 struct Grid {
   Communicator comm;
-  int n;                     // nodes per direction
-  int first, last;           // owned planes [first, last)
+  int n;            // nodes per direction
+  int first, last;  // owned planes [first, last)
   Layout layout;
   std::vector<std::array<int, dim>> node;  // grid position of each local node
   std::vector<std::array<int, 1 << dim>> cells;
@@ -138,8 +139,8 @@ struct StokesModel {
     lap = stiffness / options.rho_c;
   }
 
-  /// A right-hand side with a known solution: x (returned), b = K x; prescribed velocities are zero, and so is the
-  /// mean pressure.
+  /// A right-hand side with a known solution: x (returned), b = K x; prescribed velocities are zero, and so
+  /// is the mean pressure.
   std::vector<double> exact() const {
     std::vector<double> x(static_cast<std::size_t>(grid.layout.n_local()) * B);
     double mean = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ifsi/element/elements.hpp"
+#include "ifsi/element/geometry.hpp"
 #include "ifsi/mesh/mesh.hpp"
 #include "ifsi/quadrature/basis_table.hpp"
 #include "ifsi/quadrature/quadrature.hpp"
@@ -22,16 +23,6 @@ struct FacePoint {
   Vec<double, dim> x;
   Vec<double, dim> n_dA;  ///< outward unit normal times quadrature weight times area
 };
-
-/// Area-weighted outward normal from the tangents of a face (columns of dx/dxi).
-template <int dim>
-constexpr Vec<double, dim> face_normal(const Mat<double, dim, dim - 1>& t) {
-  if constexpr (dim == 2)
-    return {t(1, 0), -t(0, 0)};
-  else
-    return {t(1, 0) * t(2, 1) - t(2, 0) * t(1, 1), t(2, 0) * t(0, 1) - t(0, 0) * t(2, 1),
-            t(0, 0) * t(1, 1) - t(1, 0) * t(0, 1)};
-}
 
 namespace detail {
 
@@ -49,14 +40,9 @@ void visit_face(const Mesh<Element>& mesh, const BoundaryFace& face, Visit&& vis
     X[a] = mesh.points[mesh.cell_points[face.cell][local[a]]];
   }
   for (int q = 0; q < Rule::n; ++q) {
-    FacePoint<dim> point{face.cell, nodes, Table::N[q], Vec<double, dim>::zero(), {}};
-    auto tangents = Mat<double, dim, dim - 1>::zero();
-    for (int a = 0; a < Face::n_nodes; ++a) {
-      point.x += Table::N[q][a] * X[a];
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim - 1; ++j) tangents(i, j) += X[a][i] * Table::dN[q][a][j];
-    }
-    point.n_dA = (Rule::weights[q] * Coordinates::measure(point.x[0])) * face_normal<dim>(tangents);
+    FacePoint<dim> point{face.cell, nodes, Table::N[q], interpolate(Table::N[q], X), {}};
+    point.n_dA =
+        (Rule::weights[q] * Coordinates::measure(point.x[0])) * area_normal(jacobian(Table::dN[q], X));
     visit(point);
   }
 }

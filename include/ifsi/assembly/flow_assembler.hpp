@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "ifsi/assembly/scatter.hpp"
 #include "ifsi/core/pack.hpp"
+#include "ifsi/element/elements.hpp"
 #include "ifsi/fluid/flow_cell.hpp"
 #include "ifsi/linalg/block_csr.hpp"
+#include "ifsi/linalg/schur_parts.hpp"
 #include "ifsi/mesh/mesh.hpp"
 #include "ifsi/quadrature/quadrature.hpp"
 
@@ -37,33 +40,20 @@ class FlowAssembler {
   static constexpr int dim = Element::dim, n = Element::n_nodes, B = dim + 1;
   using Parameters = FluidParameters<typename Model::Rheology>;
 
-  explicit FlowAssembler(const Mesh<Element>& mesh)
-      : mesh_(mesh),
-        pattern_(build_pattern(mesh.nodes, mesh.cells)),
-        blocks_(cell_block_map(*pattern_, mesh.cells)) {}
+  explicit FlowAssembler(const Mesh<Element>& mesh);
 
   /// A zero matrix with the sparsity of the mesh: rows of owned nodes, columns of their neighbours.
   [[nodiscard]] BlockCsr<B> make_matrix() const { return BlockCsr<B>(pattern_); }
 
   /// Residual (eq. 3) of the owned nodes, n_owned x B numbers; what else R holds is left alone.
-  void residual(const FlowFields& fields, const Parameters& fluid, std::span<double> R) const {
-    std::fill_n(R.begin(), mesh_.nodes.n_owned() * B, 0.0);
-    for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
-      kernel.residual([&](int a, const Vec<T, B>& R_a) { scatter_residual(batch, a, R_a, R); });
-    });
-  }
+  void residual(const FlowFields& fields, const Parameters& fluid, std::span<double> R) const;
 
   /// Residual and tangent (eq. 7). K must come from make_matrix.
   void residual_and_tangent(const FlowFields& fields, const Parameters& fluid, std::span<double> R,
-                            BlockCsr<B>& K) const {
-    std::fill_n(R.begin(), mesh_.nodes.n_owned() * B, 0.0);
-    K.set_zero();
-    for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
-      kernel.residual_and_tangent(
-          [&](int a, const Vec<T, B>& R_a) { scatter_residual(batch, a, R_a, R); },
-          [&](int a, int b, const Mat<T, B>& K_ab) { scatter_block(batch, a, b, K_ab, K); });
-    });
-  }
+                            BlockCsr<B>& K) const;
+
+  /// The parts of the pressure Schur complement that the matrix alone does not hold (eq. 14).
+  [[nodiscard]] SchurParts schur_parts(const FlowFields& fields, const Parameters& fluid) const;
 
  private:
   using T = Pack<lanes>;
@@ -124,9 +114,90 @@ class FlowAssembler {
     add_lanes<B * B>(K_ab.data, to.data());
   }
 
+  void add_at_node(const Batch& batch, int a, T value, std::vector<double>& to) const {
+    for (int l = 0; l < batch.n_cells; ++l) {
+      const int node = mesh_.cells[batch.cell[l]][a];
+      if (node < mesh_.nodes.n_owned()) to[node] += value[l];
+    }
+  }
+
+  void add_at_pair(const Batch& batch, int a, int b, T value, BlockCsr<1>& to) const {
+    for (int l = 0; l < batch.n_cells; ++l) {
+      const int block = blocks_[batch.cell[l]][a * n + b];
+      if (block >= 0) *to.at(block) += value[l];
+    }
+  }
+
   const Mesh<Element>& mesh_;
   std::shared_ptr<const Pattern> pattern_;
   std::vector<std::array<int, n * n>> blocks_;  ///< per cell and node pair: block of K, or -1 when not owned
 };
+
+template <class Element, class Model, class Rule, int lanes>
+FlowAssembler<Element, Model, Rule, lanes>::FlowAssembler(const Mesh<Element>& mesh)
+    : mesh_(mesh),
+      pattern_(build_pattern(mesh.nodes, mesh.cells)),
+      blocks_(cell_block_map(*pattern_, mesh.cells)) {}
+
+template <class Element, class Model, class Rule, int lanes>
+void FlowAssembler<Element, Model, Rule, lanes>::residual(const FlowFields& fields, const Parameters& fluid,
+                                                          std::span<double> R) const {
+  std::fill_n(R.begin(), mesh_.nodes.n_owned() * B, 0.0);
+  for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
+    kernel.residual([&](int a, const Vec<T, B>& R_a) { scatter_residual(batch, a, R_a, R); });
+  });
+}
+
+template <class Element, class Model, class Rule, int lanes>
+void FlowAssembler<Element, Model, Rule, lanes>::residual_and_tangent(const FlowFields& fields,
+                                                                      const Parameters& fluid,
+                                                                      std::span<double> R,
+                                                                      BlockCsr<B>& K) const {
+  std::fill_n(R.begin(), mesh_.nodes.n_owned() * B, 0.0);
+  K.set_zero();
+  for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
+    kernel.residual_and_tangent(
+        [&](int a, const Vec<T, B>& R_a) { scatter_residual(batch, a, R_a, R); },
+        [&](int a, int b, const Mat<T, B>& K_ab) { scatter_block(batch, a, b, K_ab, K); });
+  });
+}
+
+template <class Element, class Model, class Rule, int lanes>
+SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFields& fields,
+                                                                   const Parameters& fluid) const {
+  SchurParts parts{std::vector<double>(mesh_.nodes.n_owned(), 0.0), BlockCsr<1>(pattern_), 0.0};
+  const double inverse_rho_c = fluid.c_inertia > 0.0 ? 1.0 / (fluid.rho * fluid.c_inertia) : 0.0;
+  for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
+    for (int q = 0; q < Rule::n; ++q) {
+      const auto& point = kernel.point(q);
+      const T mass = point.JxW() / (point.mu() + point.rho_tau_C());
+      const T trace_G = fluid.rho / (point.rho_tau_C() * point.tau_M());
+      for (int a = 0; a < n; ++a) {
+        add_at_node(batch, a, BasisTable<Element, Rule>::N[q][a] * mass, parts.mass);
+        for (int b = 0; b < n; ++b)
+          add_at_pair(batch, a, b,
+                      inverse_rho_c * point.JxW() * dot(kernel.trial(a, q).grad, kernel.trial(b, q).grad),
+                      parts.laplacian);
+      }
+      for (int l = 0; l < batch.n_cells; ++l)
+        parts.viscous_number =
+            std::max(parts.viscous_number, point.mu()[l] * trace_G[l] * inverse_rho_c / (4.0 * dim));
+    }
+  });
+  parts.viscous_number = mesh_.comm.max(parts.viscous_number);
+  if (fluid.c_inertia == 0.0) parts.viscous_number = std::numeric_limits<double>::infinity();
+  return parts;
+}
+
+// The scenes every driver may name are compiled once, in src/instantiate.
+extern template class FlowAssembler<Tri1>;
+extern template class FlowAssembler<Tri2>;
+extern template class FlowAssembler<Quad1>;
+extern template class FlowAssembler<Quad2>;
+extern template class FlowAssembler<Tet1>;
+extern template class FlowAssembler<Tet2>;
+extern template class FlowAssembler<Hex1>;
+extern template class FlowAssembler<Hex2>;
+extern template class FlowAssembler<Wedge1>;
 
 }  // namespace ifsi

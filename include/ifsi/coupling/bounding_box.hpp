@@ -80,24 +80,31 @@ struct VertexElementOf<Shape::wedge> {
   using Type = Wedge1;
 };
 
-/// A box that holds every x(xi) of the cell with nodes X, grown by `margin` times its diagonal.
-/// The cell through its vertices lies in their hull; node a adds at most |N_a| times its offset from that
-/// cell, and the functions of the other nodes have sum |N_a| < 2 (quadratic triangles 4/3, tets 3/2,
-/// hexes 1.953).
+template <class Element>
+using VertexElement = typename VertexElementOf<Element::shape>::Type;
+
+/// How far the nodes X that are no vertices lie off the cell through its vertices: the largest distance per axis.
 template <class Element, int dim>
-Box<dim> cell_box(const std::array<Vec<double, dim>, Element::n_nodes>& X, double margin) {
-  using VertexElement = typename VertexElementOf<Element::shape>::Type;
-  Box<dim> box;
-  for (int a = 0; a < Element::n_vertices; ++a) box.extend(X[a]);
+Vec<double, dim> offset_from_vertex_cell(const std::array<Vec<double, dim>, Element::n_nodes>& X) {
   Vec<double, dim> offset = Vec<double, dim>::zero();
   for (int a = Element::n_vertices; a < Element::n_nodes; ++a) {
     std::array<double, Element::n_vertices> N;
-    VertexElement::shape_functions(Element::nodes[a], N);
+    VertexElement<Element>::shape_functions(Element::nodes[a], N);
     Vec<double, dim> d = X[a];
     for (int v = 0; v < Element::n_vertices; ++v) d -= N[v] * X[v];
-    for (int i = 0; i < dim; ++i) offset[i] = std::max(offset[i], 2.0 * std::abs(d[i]));
+    for (int i = 0; i < dim; ++i) offset[i] = std::max(offset[i], std::abs(d[i]));
   }
-  box.grow(offset);
+  return offset;
+}
+
+/// A box that holds every x(xi) of the cell with nodes X, grown by `margin` times its diagonal.
+/// The cell through its vertices lies in their hull; node a adds at most |N_a| times its offset from that cell, and
+/// the functions of the other nodes have sum |N_a| < 2 (quadratic triangles 4/3, tets 3/2, hexes 1.953).
+template <class Element, int dim>
+Box<dim> cell_box(const std::array<Vec<double, dim>, Element::n_nodes>& X, double margin) {
+  Box<dim> box;
+  for (int a = 0; a < Element::n_vertices; ++a) box.extend(X[a]);
+  box.grow(2.0 * offset_from_vertex_cell<Element>(X));
   Vec<double, dim> by;
   for (int i = 0; i < dim; ++i) by[i] = 2.0 * margin * box.radius();
   box.grow(by);

@@ -140,17 +140,18 @@ class Interpolation {
 
   /// Takes over the positions; returns the nodes that are not where they were.
   std::vector<int> note_positions(std::span<const Point> x) {
+    require_finite(x);
     const bool restart = x.size() != x_.size();
     if (restart) {
       x_.assign(x.begin(), x.end());
       rows_.assign(x.size(), Row{});
       local_nodes_.assign(x.size(), no_nodes());
       local_cell_.assign(x.size(), -1);
+      list_points();
       ++revision_;
     }
     std::vector<int> moved;
     for (size_t p = 0; p < x.size(); ++p) {
-      require_finite(x[p], p);
       if (!restart && x[p] == x_[p]) continue;
       x_[p] = x[p];
       moved.push_back(static_cast<int>(p));
@@ -158,12 +159,13 @@ class Interpolation {
     return moved;
   }
 
-  static void require_finite(const Point& x, size_t p) {
-    for (int i = 0; i < dim; ++i)
-      if (!std::isfinite(x[i]))
-        throw Error(ExitCode::invalid_state, "solid node " + std::to_string(p) + ": coordinate " +
-                                                 std::to_string(i) + " is " + std::to_string(x[i]) +
-                                                 "; expected a finite number");
+  static void require_finite(std::span<const Point> x) {
+    for (size_t p = 0; p < x.size(); ++p)
+      for (int i = 0; i < dim; ++i)
+        if (!std::isfinite(x[p][i]))
+          throw Error(ExitCode::invalid_state, "solid node " + std::to_string(p) + ": coordinate " +
+                                                   std::to_string(i) + " is " + std::to_string(x[p][i]) +
+                                                   "; expected a finite number");
   }
 
   /// New rows of the nodes this rank holds and finds in the interior of a cell near the old one.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -45,9 +46,10 @@ class PointLocator {
   explicit PointLocator(const Mesh<Element>& mesh) : mesh_(mesh) {
     // The boxes are wider than the tolerance by enough for the round-off of far-away coordinates too.
     constexpr double box_margin = 1e-6;
-    boxes_.reserve(mesh.cells.size());
-    for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c)
+    for (int c = 0; c < mesh.n_cells(); ++c) {
       boxes_.push_back(cell_box<Element>(mesh.cell_coordinates(c), box_margin));
+      straight_.push_back(is_straight(c));
+    }
     for (int c = 0; c < mesh.n_owned_cells; ++c) owned_box_.extend(boxes_[c]);
     collect_cells_of_points();
     plant_trees();
@@ -69,7 +71,9 @@ class PointLocator {
   /// Looks for x in the interior of a local cell or of one of its neighbours, ghost cells included: the quick
   /// check of a position that has moved little, to be followed by find() on all ranks when it fails.
   [[nodiscard]] Location track(const Point& x, int cell) const {
-    const Location location = search_around(cell, x, static_cast<int>(boxes_.size()));
+    Location location;
+    look_into(cell, x, location);
+    if (!location.found()) search_neighbours(cell, x, mesh_.n_cells(), location);
     return location.is_interior() ? location : Location{};
   }
 
@@ -125,30 +129,52 @@ class PointLocator {
     }
   }
 
+  /// Whether the vertices alone describe the cell, to the last bits of its coordinates.
+  [[nodiscard]] bool is_straight(int cell) const {
+    const auto offset = offset_from_vertex_cell<Element>(mesh_.cell_coordinates(cell));
+    for (int i = 0; i < dim; ++i) {
+      const double largest = std::max(std::abs(boxes_[cell].lower[i]), std::abs(boxes_[cell].upper[i]));
+      if (offset[i] > 4 * std::numeric_limits<double>::epsilon() * largest) return false;
+    }
+    return true;
+  }
+
+  /// Inverse map of a cell; of a straight one that of its vertices, which costs a fraction for order two.
+  [[nodiscard]] InverseMap<dim> inverse(int cell, const Point& x) const {
+    const auto X = mesh_.cell_coordinates(cell);
+    if (Element::order == 1 || !straight_[cell]) return inverse_map<Element>(X, x);
+    std::array<Point, Element::n_vertices> vertices;
+    std::copy_n(X.begin(), Element::n_vertices, vertices.begin());
+    return inverse_map<VertexElement<Element>>(vertices, x);
+  }
+
   /// Takes the cell if it holds x and has a lower input number than the one found before.
   void look_into(int cell, const Point& x, Location& found) const {
     if (!boxes_[cell].contains(x)) return;
     if (found.found() && mesh_.input_cell[found.cell] < mesh_.input_cell[cell]) return;
-    const auto inverse = inverse_map<Element>(mesh_.cell_coordinates(cell), x);
-    if (inverse.converged && Element::contains(inverse.xi, tolerance)) found = {cell, inverse.xi};
+    const InverseMap<dim> at = inverse(cell, x);
+    if (at.converged && Element::contains(at.xi, tolerance)) found = {cell, at.xi};
   }
 
-  /// Looks into a cell and those that share a vertex with it, as far as their local numbers are below
-  /// n_cells.
+  /// Looks into a cell and its neighbours, as far as their local numbers are below n_cells.
   [[nodiscard]] Location search_around(int cell, const Point& x, int n_cells) const {
     Location found;
     if (cell < n_cells) look_into(cell, x, found);
-    if (found.is_interior()) return found;
+    if (!found.is_interior()) search_neighbours(cell, x, n_cells, found);
+    return found;
+  }
+
+  /// Looks into the cells that share a vertex with `cell`, until x is in the interior of one.
+  void search_neighbours(int cell, const Point& x, int n_cells, Location& found) const {
     for (int a = 0; a < Element::n_vertices; ++a) {
       const int p = mesh_.cell_points[cell][a];
       for (int k = first_cell_[p]; k < first_cell_[p + 1]; ++k) {
         const int neighbour = cells_of_point_[k];
-        if (neighbour == cell || neighbour >= n_cells) continue;
+        if (neighbour == cell || neighbour == found.cell || neighbour >= n_cells) continue;
         look_into(neighbour, x, found);
-        if (found.is_interior()) return found;
+        if (found.is_interior()) return;
       }
     }
-    return found;
   }
 
   [[nodiscard]] Location search_trees(const Point& x) const {
@@ -169,6 +195,7 @@ class PointLocator {
 
   const Mesh<Element>& mesh_;
   std::vector<Box<dim>> boxes_;  ///< of all local cells
+  std::vector<char> straight_;   ///< whether a local cell is
   Box<dim> owned_box_;           ///< around the owned cells
   std::vector<int> first_cell_, cells_of_point_;
   std::vector<SizeClass> size_classes_;

@@ -32,9 +32,13 @@ constexpr Vec<T, d> map(const Vec<S, E::dim>& xi, const std::array<Vec<T, d>, E:
 template <class S, class T, int d, int rd, std::size_t n>
 constexpr Mat<T, d, rd> jacobian(const std::array<Vec<S, rd>, n>& dN, const std::array<Vec<T, d>, n>& X) {
   Mat<T, d, rd> J = Mat<T, d, rd>::zero();
-  for (std::size_t a = 0; a < n; ++a)
-    for (int i = 0; i < d; ++i)
+  for (std::size_t a = 0; a < n; ++a) {
+    IFSI_UNROLL
+    for (int i = 0; i < d; ++i) {
+      IFSI_UNROLL
       for (int j = 0; j < rd; ++j) J(i, j) += dN[a][j] * X[a][i];
+    }
+  }
   return J;
 }
 
@@ -43,11 +47,14 @@ template <class S, class T, int d, std::size_t n>
 constexpr std::array<Vec<T, d>, n> physical_gradients(const std::array<Vec<S, d>, n>& dN,
                                                       const Mat<T, d>& J_inverse) {
   std::array<Vec<T, d>, n> grad_N;
-  for (std::size_t a = 0; a < n; ++a)
+  for (std::size_t a = 0; a < n; ++a) {
+    IFSI_UNROLL
     for (int i = 0; i < d; ++i) {
       grad_N[a][i] = dN[a][0] * J_inverse(0, i);
+      IFSI_UNROLL
       for (int j = 1; j < d; ++j) grad_N[a][i] += dN[a][j] * J_inverse(j, i);
     }
+  }
   return grad_N;
 }
 
@@ -64,6 +71,7 @@ constexpr std::array<T, n> physical_laplacians(const std::array<Mat<S, d>, n>& d
   Vec<T, d> lap_x = Vec<T, d>::zero();
   for (std::size_t a = 0; a < n; ++a) {
     lap_N[a] = T(0.0);
+    IFSI_UNROLL
     for (int k = 0; k < d * d; ++k) lap_N[a] += ddN[a].data[k] * C.data[k];
     lap_x += lap_N[a] * X[a];
   }

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "ifsi/core/tensor.hpp"
+#include "ifsi/element/geometry.hpp"
 #include "ifsi/fluid/vms.hpp"
 #include "ifsi/quadrature/basis_table.hpp"
 
@@ -62,6 +63,7 @@ class FlowCell {
   }
 
   [[nodiscard]] const VmsPoint<Model, T, dim>& point(int q) const { return points_[q]; }
+  [[nodiscard]] const TrialFunction<T, dim>& trial(int a, int q) const { return trials_[a][q]; }
 
  private:
   Vec<T, B> residual_of(int a, std::array<TestFunction<T, dim>, nq>& tests) const {
@@ -74,96 +76,38 @@ class FlowCell {
   }
 
   void evaluate_point(int q, const FlowCellData<Element, T>& cell, const Parameters& fluid) {
-    const Mat<T, dim> J = gradient(Table::dN[q], cell.X);
+    const Mat<T, dim> J = jacobian(Table::dN[q], cell.X);
     const Mat<T, dim> J_inv = inverse(J);
-    std::array<Vec<T, dim>, n> grad_N;
-    for (int a = 0; a < n; ++a) grad_N[a] = push_forward(Table::dN[q][a], J_inv);
-    const std::array<T, n> lap_N = laplacians(q, cell, J_inv, grad_N);
+    const std::array<Vec<T, dim>, n> grad_N = physical_gradients(Table::dN[q], J_inv);
+    std::array<T, n> lap_N;
+    if constexpr (Element::linear)
+      lap_N.fill(T(0.0));
+    else
+      lap_N = physical_laplacians(Table::ddN[q], grad_N, cell.X, J_inv);
 
     FlowPoint<T, dim> x;
-    x.v = value(Table::N[q], cell.v);
-    x.v_dot = value(Table::N[q], cell.v_dot);
-    x.f = value(Table::N[q], cell.f);
+    x.v = interpolate(Table::N[q], cell.v);
+    x.v_dot = interpolate(Table::N[q], cell.v_dot);
+    x.f = interpolate(Table::N[q], cell.f);
     x.grad_v = gradient(grad_N, cell.v);
-    x.lap_v = Element::linear ? Vec<T, dim>::zero() : value(lap_N, cell.v);
-    x.p = value(Table::N[q], cell.p);
-    x.grad_p = gradient(grad_N, cell.p);
-    x.s = value(Table::N[q], cell.s);
+    x.lap_v = Element::linear ? Vec<T, dim>::zero() : interpolate(lap_N, cell.v);
+    x.p = interpolate(Table::N[q], cell.p);
+    x.grad_p = interpolate(cell.p, grad_N);
+    x.s = interpolate(Table::N[q], cell.s);
     x.k_p = cell.k_p;
-    x.G = metric(J_inv);
-    x.radius = Model::Coordinates::axisymmetric ? value(Table::N[q], cell.X)[0] : T(1.0);
+    x.G = metric_tensor<Element>(J_inv);
+    x.radius = Model::Coordinates::axisymmetric ? interpolate(Table::N[q], cell.X)[0] : T(1.0);
     x.JxW = Rule::weights[q] * det(J) * Model::Coordinates::measure(x.radius);
     new (&points_[q]) VmsPoint<Model, T, dim>(x, fluid);
     for (int a = 0; a < n; ++a)
       new (&trials_[a][q]) TrialFunction<T, dim>(points_[q].trial(Table::N[q][a], grad_N[a], lap_N[a]));
   }
 
-  /// sum_a N_a f_a for scalar or vector nodal values.
-  template <class S, class Value>
-  static Value value(const std::array<S, n>& N, const std::array<Value, n>& f) {
-    Value r = N[0] * f[0];
-    for (int a = 1; a < n; ++a) r += N[a] * f[a];
-    return r;
-  }
-  /// sum_a f_a grad N_a, and for vectors sum_a f_a (x) grad N_a (also the Jacobian, from reference
-  /// gradients).
-  template <class S>
-  static Vec<T, dim> gradient(const std::array<Vec<S, dim>, n>& grad_N, const std::array<T, n>& f) {
-    Vec<T, dim> r = Vec<T, dim>::zero();
-    for (int a = 0; a < n; ++a) r += f[a] * grad_N[a];
-    return r;
-  }
-  template <class S>
-  static Mat<T, dim> gradient(const std::array<Vec<S, dim>, n>& grad_N, const std::array<Vec<T, dim>, n>& f) {
-    Mat<T, dim> r = Mat<T, dim>::zero();
-    for (int a = 0; a < n; ++a) IFSI_UNROLL
-    for (int i = 0; i < dim; ++i) IFSI_UNROLL
-    for (int j = 0; j < dim; ++j) r(i, j) += f[a][i] * grad_N[a][j];
-    return r;
-  }
-  static Vec<T, dim> push_forward(const Vec<double, dim>& dN, const Mat<T, dim>& J_inv) {
-    Vec<T, dim> grad;
-    IFSI_UNROLL
-    for (int i = 0; i < dim; ++i) {
-      grad[i] = dN[0] * J_inv(0, i);
-      IFSI_UNROLL
-      for (int j = 1; j < dim; ++j) grad[i] += dN[j] * J_inv(j, i);
-    }
-    return grad;
-  }
-  /// G = J^-T M J^-1 (eq. 6).
-  static Mat<T, dim> metric(const Mat<T, dim>& J_inv) {
-    constexpr Mat<double, dim> M = Element::metric;
-    if constexpr (M == Mat<double, dim>::identity()) return transpose(J_inv) * J_inv;
-    Mat<T, dim> M_J_inv = Mat<T, dim>::zero();
-    for (int k = 0; k < dim; ++k)
-      for (int l = 0; l < dim; ++l)
-        for (int j = 0; j < dim; ++j) M_J_inv(k, j) += M(k, l) * J_inv(l, j);
-    return transpose(J_inv) * M_J_inv;
-  }
-
-  /// lap N = tr(J^-1 J^-T (H_N - sum_i dN/dx_i H_xi)): what the map adds matters on every cell that is not
-  /// affine.
-  static std::array<T, n> laplacians(int q, const FlowCellData<Element, T>& cell, const Mat<T, dim>& J_inv,
-                                     const std::array<Vec<T, dim>, n>& grad_N) {
-    std::array<T, n> lap_N;
-    if constexpr (Element::linear) {
-      for (int a = 0; a < n; ++a) lap_N[a] = T(0.0);
-      return lap_N;
-    } else {
-      const Mat<T, dim> Q = J_inv * transpose(J_inv);
-      Vec<T, dim> curvature = Vec<T, dim>::zero();
-      for (int a = 0; a < n; ++a) {
-        lap_N[a] = T(0.0);
-        for (int k = 0; k < dim; ++k) {
-          lap_N[a] += Table::ddN[q][a](k, k) * Q(k, k);
-          for (int l = 0; l < k; ++l) lap_N[a] += (2.0 * Table::ddN[q][a](k, l)) * Q(k, l);
-        }
-        for (int i = 0; i < dim; ++i) curvature[i] += lap_N[a] * cell.X[a][i];
-      }
-      for (int a = 0; a < n; ++a) lap_N[a] -= dot(curvature, grad_N[a]);
-      return lap_N;
-    }
+  /// grad f = sum_a f_a (x) grad N_a.
+  static Mat<T, dim> gradient(const std::array<Vec<T, dim>, n>& grad_N, const std::array<Vec<T, dim>, n>& f) {
+    Mat<T, dim> g = outer(f[0], grad_N[0]);
+    for (int a = 1; a < n; ++a) g += outer(f[a], grad_N[a]);
+    return g;
   }
 
   std::array<VmsPoint<Model, T, dim>, nq> points_;

@@ -6,8 +6,8 @@
 
 namespace ifsi {
 
-/// Sums K_ij x_j over the blocks of a row, blocks row-major. Every entry of a block has its own accumulator, so
-/// that no addition waits for another; the columns are added up once per row, in store().
+/// Sums K_ij x_j over the blocks of a row, blocks row-major. Every entry of a block has its own accumulator,
+/// so that no addition waits for another; the columns are added up once per row, in store().
 template <class T, int B>
 struct BlockRow {
   T sum[B][B] = {};

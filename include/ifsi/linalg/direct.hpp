@@ -26,7 +26,8 @@ class DirectSolver {
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
   /// Collective. Factors K; analyses it first when its pattern object is not that of the last call.
-  /// \param pinned global number of a scalar unknown to be set to zero (its row is replaced), or -1: makes a matrix
+  /// \param pinned global number of a scalar unknown to be set to zero (its row is replaced), or -1: makes a
+  /// matrix
   ///   regular whose null space is known.
   /// Throws Error(linear_solver) on all ranks when the matrix is singular or memory runs out.
   template <int B>
@@ -40,6 +41,9 @@ class DirectSolver {
 
   [[nodiscard]] bool ready() const;
   [[nodiscard]] const Cost& cost() const;
+  /// The factorisation in units of an application: measured as 20 ns per entry and 7 Gflop/s against 2.6 ns per
+  /// entry and solve (2D 3k .. 200k unknowns: 16 to 32).
+  [[nodiscard]] double setup_cost() const { return 8 + cost().flops / (18 * cost().lu_entries); }
 
  private:
   class Impl;

@@ -10,8 +10,8 @@
 
 namespace ifsi {
 
-/// y = A x. Both arrays hold n_local * block numbers; owned entries of x are read, its ghosts may be overwritten,
-/// owned entries of y are written.
+/// y = A x. Both arrays hold n_local * block numbers; owned entries of x are read, its ghosts may be
+/// overwritten, owned entries of y are written.
 using LinearMap = std::function<void(double* x, double* y)>;
 
 /// Anything with apply(x, y) as a LinearMap; the object must outlive the map.
@@ -28,21 +28,33 @@ struct SolverReport {
   BlockNorms target;    ///< what it had to fall below
   bool converged = false;
   std::string message;  ///< why it did not converge; empty when it did
+  /// Powers of ten between start and target, of the block that has further to go.
+  [[nodiscard]] double decades() const;
+};
+
+/// How far to solve: a block of equations is done when its residual is below `relative` times its initial
+/// norm, or below `absolute`, whichever is larger. A block whose initial residual is next to nothing beside
+/// the other's is measured by a thousandth of that one instead, converted by GmresOptions::mass_per_momentum.
+struct SolveTarget {
+  BlockNorms relative{1e-6, 1e-6};
+  BlockNorms absolute{};
 };
 
 struct GmresOptions {
-  BlockNorms target;         ///< each block of equations of b - A x must fall below its own, absolute
+  SolveTarget target;
   int max_iterations = 200;  ///< products with A in total, over all restarts
   int restart = 60;          ///< basis vectors kept before a restart
   int mass_component = -1;   ///< component of the block that is the mass equation; -1: all are momentum
+  /// Size of the mass residual that goes with a unit momentum residual (units of one over the other).
+  double mass_per_momentum = 1;
 };
 
-/// Solves A x = b from the given x by right-preconditioned flexible GMRES (Saad 1993): P may differ from step to
-/// step. Each block of equations is divided by its target, so that the two count alike in what is minimised:
-/// in one mixed norm the mass equation stays unsolved. Orthogonalisation: classical Gram-Schmidt, repeated when
-/// cancellation asks for it.
-/// \param b, x  n_local * block numbers; x is the start and the result. Collective. Throws Error(linear_solver)
-/// when a NaN turns up; not converging is no error here, only reported.
+/// Solves A x = b from the given x by right-preconditioned flexible GMRES (Saad 1993): P may differ from step
+/// to step. Each block of equations is divided by its target, so that the two count alike in what is
+/// minimised: in one mixed norm the mass equation stays unsolved. Orthogonalisation: classical Gram-Schmidt,
+/// repeated when cancellation asks for it. \param b, x  n_local * block numbers; x is the start and the
+/// result. Collective. Throws Error(linear_solver) when a NaN turns up; not converging is no error here, only
+/// reported.
 SolverReport fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& preconditioner,
                     const double* b, double* x, const GmresOptions& options);
 

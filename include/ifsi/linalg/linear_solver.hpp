@@ -13,24 +13,18 @@
 namespace ifsi {
 
 struct LinearSolverOptions {
-  /// "auto": by dimension and size; "direct": LU of the whole matrix, kept and used as preconditioner while it
-  /// pays; "gmres": GMRES with the block preconditioner.
+  /// "auto": by dimension and size; "direct": LU of the whole matrix, kept and used as preconditioner while
+  /// it pays; "gmres": GMRES with the block preconditioner.
   std::string method = "auto";
-  int max_iterations = 300;  ///< of one solve with a fresh set-up
+  std::string velocity = "auto";  ///< see SaddleOptions
+  int max_iterations = 300;       ///< of one solve with a fresh set-up
   int restart = 60;
   bool enclosed = false;  ///< no boundary fixes the pressure level: constants are projected out
   bool reuse = true;      ///< false: renew the set-up in every solve
 };
 
-/// How far to solve: a block of equations is done when its residual is below `relative` times its initial norm, or
-/// below `absolute`, whichever is larger.
-struct SolveTarget {
-  BlockNorms relative{1e-6, 1e-6};
-  BlockNorms absolute{};
-};
-
-/// K = [A G; D L] with the unknowns (v, p) of a node side by side: B = dim + 1, the last row the mass equation.
-/// Rows of prescribed unknowns are identity rows.
+/// K = [A G; D L] with the unknowns (v, p) of a node side by side: B = dim + 1, the last row the mass
+/// equation. Rows of prescribed unknowns are identity rows.
 template <int B>
 class LinearSolver {
  public:
@@ -41,13 +35,14 @@ class LinearSolver {
   LinearSolver(LinearSolver&&) noexcept;
   LinearSolver& operator=(LinearSolver&&) noexcept;
 
-  /// Collective. Solves K x = rhs starting from the given x. Both hold n_local * B numbers; the ghosts of x are
-  /// up to date afterwards. A block whose initial residual is next to nothing beside the other's (converted by
-  /// the sizes of A and D) gets a thousandth of that as measure. Not converging is reported, not thrown;
-  /// Error(linear_solver) tells of NaN or a singular matrix.
+  /// Collective. Solves K x = rhs starting from the given x. Both hold n_local * B numbers; the ghosts of x
+  /// are up to date afterwards. A block whose initial residual is next to nothing beside the other's
+  /// (converted by the sizes of A and D) gets a thousandth of that as measure. Not converging is reported,
+  /// not thrown; Error(linear_solver) tells of NaN or a singular matrix.
   SolverReport solve(const BlockCsr<B>& K, std::span<const double> rhs, std::span<double> x,
                      const SolveTarget& target = {});
-  SolverReport solve(const BlockCsr<B>& K, std::span<const double> rhs, std::span<double> x, BlockNorms relative) {
+  SolverReport solve(const BlockCsr<B>& K, std::span<const double> rhs, std::span<double> x,
+                     BlockNorms relative) {
     return solve(K, rhs, x, SolveTarget{relative, {}});
   }
 

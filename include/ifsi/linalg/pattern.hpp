@@ -12,8 +12,8 @@
 
 namespace ifsi {
 
-/// Compressed rows. Row i (an owned node) has the columns cols[row_ptr[i]] .. cols[row_ptr[i+1]-1]: local nodes,
-/// owned or ghost, ascending, its own diagonal among them.
+/// Compressed rows. Row i (an owned node) has the columns cols[row_ptr[i]] .. cols[row_ptr[i+1]-1]: local
+/// nodes, owned or ghost, ascending, its own diagonal among them.
 struct Pattern {
   Layout layout;
   std::vector<int> row_ptr;
@@ -29,8 +29,8 @@ struct Pattern {
   }
 };
 
-/// The pattern that couples all nodes of a cell. \param cells local node numbers of every local cell; each cell
-/// that touches an owned node must be there.
+/// The pattern that couples all nodes of a cell. \param cells local node numbers of every local cell; each
+/// cell that touches an owned node must be there.
 template <class Cells>
 [[nodiscard]] std::shared_ptr<const Pattern> build_pattern(const Layout& layout, const Cells& cells) {
   const int n_owned = layout.n_owned();
@@ -60,11 +60,11 @@ template <class Cells>
   return pattern;
 }
 
-/// Where the node pairs of each cell live in the pattern: map[c][a * n + b] is the block of (node a, node b) of
-/// cell c, or -1 when this rank does not own row a.
+/// Where the node pairs of each cell live in the pattern: map[c][a * n + b] is the block of (node a, node b)
+/// of cell c, or -1 when this rank does not own row a.
 template <std::size_t n>
-[[nodiscard]] std::vector<std::array<int, n * n>> cell_block_map(const Pattern& pattern,
-                                                                 const std::vector<std::array<int, n>>& cells) {
+[[nodiscard]] std::vector<std::array<int, n * n>> cell_block_map(
+    const Pattern& pattern, const std::vector<std::array<int, n>>& cells) {
   std::vector<std::array<int, n * n>> map(cells.size());
   const int n_owned = pattern.layout.n_owned();
   for (std::size_t c = 0; c < cells.size(); ++c)

@@ -76,17 +76,26 @@ std::vector<int> node_owners(const GlobalMesh<Element>& mesh, const std::vector<
   return owner;
 }
 
+/// Cells by rank, then along the Hilbert curve.
+template <class Element>
+std::vector<int> cell_order(const GlobalMesh<Element>& mesh, const std::vector<int>& part) {
+  const auto keys = hilbert_keys(mesh);
+  std::vector<std::tuple<int, std::uint64_t, int>> sorted;
+  sorted.reserve(mesh.cells.size());
+  for (int c = 0; c < mesh.n_cells(); ++c) sorted.emplace_back(part[c], keys[c], c);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<int> order;
+  order.reserve(mesh.cells.size());
+  for (const auto& [rank, key, cell] : sorted) order.push_back(cell);
+  return order;
+}
+
 template <class Element>
 Numbering number(const GlobalMesh<Element>& mesh, const Communicator& comm) {
   Numbering s;
   s.part = partition_cells(mesh, comm);
   s.owner = node_owners(mesh, s.part);
-  const auto keys = hilbert_keys(mesh);
-  s.order.resize(mesh.cells.size());
-  std::iota(s.order.begin(), s.order.end(), 0);
-  std::sort(s.order.begin(), s.order.end(), [&](int a, int b) {
-    return std::tuple(s.part[a], keys[a], a) < std::tuple(s.part[b], keys[b], b);
-  });
+  s.order = cell_order(mesh, s.part);
   s.first_cell.assign(comm.size() + 1, 0);
   for (int rank : s.part) ++s.first_cell[rank + 1];
   std::partial_sum(s.first_cell.begin(), s.first_cell.end(), s.first_cell.begin());
@@ -132,7 +141,7 @@ std::pair<std::vector<int>, std::vector<long>> local_nodes(const GlobalMesh<Elem
       else
         ghosts.emplace_back(s.global[node], node);
     }
-  std::sort(ghosts.begin(), ghosts.end());
+  std::sort(ghosts.rbegin(), ghosts.rend());
   ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
   std::vector<long> ghost_global;
   for (auto [global, node] : ghosts) {
@@ -142,21 +151,39 @@ std::pair<std::vector<int>, std::vector<long>> local_nodes(const GlobalMesh<Elem
   return {std::move(local), std::move(ghost_global)};
 }
 
-/// Points of the local cells, ordered by local node; cells in local numbers.
+/// Points of the local cells, ordered by local node, then as in the input. Returns the local number of each
+/// point.
+template <class Element>
+std::vector<int> fill_points(const GlobalMesh<Element>& mesh, const std::vector<int>& local,
+                             Mesh<Element>& out) {
+  std::vector<int> local_point(mesh.points.size(), -1), begin(out.n_nodes() + 1, 0);
+  for (int c : out.input_cell)
+    for (int p : mesh.cells[c]) {
+      if (local_point[p] >= 0) continue;
+      local_point[p] = 0;
+      ++begin[local[mesh.node(p)] + 1];
+    }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  out.points.resize(begin.back());
+  out.point_node.resize(begin.back());
+  out.input_point.resize(begin.back());
+  for (int p = 0; p < mesh.n_points(); ++p) {
+    if (local_point[p] < 0) continue;
+    const int node = local[mesh.node(p)], i = begin[node]++;
+    local_point[p] = i;
+    out.points[i] = mesh.points[p];
+    out.point_node[i] = node;
+    out.input_point[i] = p;
+  }
+  return local_point;
+}
+
+/// Cells in local numbers.
 template <class Element>
 void fill_cells(const GlobalMesh<Element>& mesh, const std::vector<int>& local, Mesh<Element>& out) {
-  std::vector<std::pair<int, int>> used;  // local node, input point
-  for (int c : out.input_cell)
-    for (int p : mesh.cells[c]) used.emplace_back(local[mesh.node(p)], p);
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  std::vector<int> local_point(mesh.points.size(), -1);
-  for (auto [node, point] : used) {
-    local_point[point] = out.n_points();
-    out.points.push_back(mesh.points[point]);
-    out.point_node.push_back(node);
-    out.input_point.push_back(point);
-  }
+  const std::vector<int> local_point = fill_points(mesh, local, out);
+  out.cells.reserve(out.input_cell.size());
+  out.cell_points.reserve(out.input_cell.size());
   for (int c : out.input_cell) {
     auto& nodes = out.cells.emplace_back();
     auto& points = out.cell_points.emplace_back();

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "ifsi/assembly/integrals.hpp"
+#include "ifsi/io/mesh_checkpoint.hpp"
 #include "ifsi/io/parameters.hpp"
 #include "ifsi/linalg/block_norms.hpp"
 #include "ifsi/linalg/linear_solver.hpp"
@@ -17,8 +19,8 @@ namespace ifsi {
 
 /// What a user may choose about the numerics of a flow.
 struct FlowOptions {
-  double rho_inf = 0.5;       ///< spectral radius at infinite frequency of generalized-alpha
-  double tau_dt = 0.0;        ///< reference time step inside tau_M; 0: the time step itself
+  double rho_inf = 0.5;  ///< spectral radius at infinite frequency of generalized-alpha
+  double tau_dt = 0.0;   ///< reference time step inside tau_M; 0: the time step itself
   NewtonOptions newton;
   LinearSolverOptions linear;
   std::array<double, 3> gravity{};
@@ -44,9 +46,16 @@ class FlowProblem {
 
   FlowProblem(const Mesh<Element>& mesh, FlowBoundary<dim> boundary, double rho,
               typename Model::Rheology rheology, FlowOptions options)
-      : options_(std::move(options)), system_(mesh, std::move(boundary)), state_(mesh.n_nodes()),
-        K_(system_.make_matrix()), R_(mesh.n_nodes() * B, 0.0), reaction_(R_), update_(R_),
-        solver_(options_.linear, system_.mask(), system_.enclosed()) {
+      : options_(std::move(options)),
+        system_(mesh, std::move(boundary)),
+        state_(mesh.n_nodes()),
+        K_(system_.make_matrix()),
+        R_(mesh.n_nodes() * B, 0.0),
+        reaction_(R_),
+        update_(R_),
+        zero_(R_),
+        solver_(linear_options(), [this] { return system_.schur_parts(fields(), fluid_); }) {
+    if (system_.enclosed()) volumes_ = nodal_volumes<typename Model::Coordinates>(mesh);
     fluid_.rho = rho;
     fluid_.rheology = rheology;
     fluid_.C_I = Element::order == 1 ? 36.0 : 60.0;
@@ -68,16 +77,18 @@ class FlowProblem {
     smooth_start_ = static_cast<bool>(v_dot);
   }
 
-  /// One step of generalized-alpha. When the report says it did not converge nothing has changed: try a smaller dt.
+  /// One step of generalized-alpha. When the report says it did not converge nothing has changed: try a
+  /// smaller dt.
   NewtonReport step(double dt) { return step(GeneralizedAlpha::from_rho_inf(options_.rho_inf), dt, false); }
 
-  /// The steady state, by Newton from the present one; if that fails, through steps of backward Euler of growing
-  /// size until Newton holds.
+  /// The steady state, by Newton from the present one; if that fails, through steps of backward Euler of
+  /// growing size until Newton holds.
   NewtonReport solve_steady() {
     NewtonReport total;
     double dt = initial_pseudo_dt();
     for (int attempt = 0; attempt < 60; ++attempt) {
-      const NewtonReport steady = attempt % 5 == 0 ? step(GeneralizedAlpha::backward_euler(), 0.0, true) : NewtonReport{};
+      const NewtonReport steady =
+          attempt % 5 == 0 ? step(GeneralizedAlpha::backward_euler(), 0.0, true) : NewtonReport{};
       total.iterations += steady.iterations, total.gmres += steady.gmres;
       if (steady.converged) return total.converged = true, total.residual = steady.residual, total;
       const NewtonReport pseudo = step(GeneralizedAlpha::backward_euler(), dt, true);
@@ -100,12 +111,32 @@ class FlowProblem {
   /// Velocity, and pressure at the same time, of every local node.
   [[nodiscard]] std::vector<double> solution() const {
     std::vector<double> u(state_.velocity().begin(), state_.velocity().end());
-    for (std::size_t node = 0; node * B < u.size(); ++node) u[node * B + dim] = state_.pressure(static_cast<int>(node));
+    for (std::size_t node = 0; node * B < u.size(); ++node)
+      u[node * B + dim] = state_.pressure(static_cast<int>(node));
     return u;
   }
 
   /// Force of the fluid on a boundary (eq. 12) at time state().time_alpha(), of the last step.
   [[nodiscard]] Point force(const std::string& boundary) const { return system_.force(boundary, reaction_); }
+
+  /// Writes and reads all that the scheme carries from step to step; any number of ranks may read.
+  void save(CheckpointWriter& checkpoint) const {
+    const auto scalars = state_.scalars();
+    for (std::size_t k = 0; k < scalars.size(); ++k)
+      checkpoint.number("flow.scalar" + std::to_string(k), scalars[k]);
+    state_.for_each_array([&](const char* name, const auto& x, int block) {
+      write_nodes(checkpoint, std::string("flow.") + name, mesh(), x.data(), block);
+    });
+  }
+  void restore(const Checkpoint& checkpoint) {
+    auto scalars = state_.scalars();
+    for (std::size_t k = 0; k < scalars.size(); ++k)
+      scalars[k] = checkpoint.number("flow.scalar" + std::to_string(k));
+    state_.set_scalars(scalars);
+    state_.for_each_array([&](const char* name, auto& x, int block) {
+      read_nodes(checkpoint, std::string("flow.") + name, mesh(), x.data(), block);
+    });
+  }
 
   // NonlinearSystem
   void assemble_residual() { assemble(nullptr); }
@@ -120,9 +151,7 @@ class FlowProblem {
   }
   SolverReport solve(BlockNorms target) {
     for (std::size_t i = 0; i < R_.size(); ++i) update_[i] = 0.0, R_[i] = -R_[i];
-    SolverReport report = solver_.solve(K_, R_, update_, target);
-    mesh().nodes.update_ghosts(update_.data(), B);
-    return report;
+    return solver_.solve(K_, R_, update_, target);
   }
   void apply_update(double factor) {
     for (std::size_t i = 0; i < update_.size(); ++i) state_.u[i] += factor * update_[i];
@@ -137,7 +166,8 @@ class FlowProblem {
     const double tau_dt = options_.tau_dt > 0.0 ? options_.tau_dt : dt;
     fluid_.tau_rate2 = steady ? 0.0 : 4.0 / (tau_dt * tau_dt);
     inertia_ = dt > 0.0;
-    solver_.set_physics({.rho_c = fluid_.rho * fluid_.c_inertia});
+    if (fluid_.c_inertia != c_inertia_of_setup_) solver_.invalidate();
+    c_inertia_of_setup_ = fluid_.c_inertia;
     state_.begin_step(scheme, dt_rate, !steady && (smooth_start_ || state_.n_steps() > 1));
     system_.for_each_prescribed(state_.time() + (steady ? 0.0 : dt),
                                 [&](int node, int i, double value) { state_.set_velocity(node, i, value); });
@@ -148,22 +178,33 @@ class FlowProblem {
     return report;
   }
 
+  [[nodiscard]] LinearSolverOptions linear_options() const {
+    LinearSolverOptions linear = options_.linear;
+    linear.enclosed = system_.enclosed();
+    return linear;
+  }
+
+  [[nodiscard]] FlowFields fields() const {
+    return {.u = state_.u,
+            .u_dot = inertia_ ? state_.rate : zero_,
+            .f = {},
+            .s = {},
+            .k_p = {},
+            .gravity = options_.gravity};
+  }
+
   void assemble(BlockCsr<B>* K) {
-    FlowFields fields{.u = state_.u, .u_dot = inertia_ ? std::span<const double>(state_.rate) : no_rate(), .f = {},
-                      .s = {}, .k_p = {}, .gravity = options_.gravity};
-    system_.assemble(fields, fluid_, state_.time_alpha(), R_, K);
+    system_.assemble(fields(), fluid_, state_.time_alpha(), R_, K);
     reaction_ = R_;
     constrain_residual<B>(system_.mask(), mesh().n_owned_nodes(), R_);
   }
 
-  std::span<const double> no_rate() {
-    if (zero_.empty()) zero_.assign(R_.size(), 0.0);
-    return zero_;
-  }
-
   void remove_mean_pressure() {
-    double sums[2] = {0.0, static_cast<double>(mesh().n_owned_nodes())};
-    for (int node = 0; node < mesh().n_owned_nodes(); ++node) sums[0] += state_.pressure(node);
+    double sums[2] = {};
+    for (int node = 0; node < mesh().n_owned_nodes(); ++node) {
+      sums[0] += volumes_[node] * state_.last_pressure(node);
+      sums[1] += volumes_[node];
+    }
     mesh().comm.sum_in_place(sums, 2);
     state_.shift_pressure(-sums[0] / sums[1]);
   }
@@ -171,7 +212,8 @@ class FlowProblem {
   /// The time a particle needs for a cell, were it to move with the largest prescribed speed.
   [[nodiscard]] double initial_pseudo_dt() const {
     double v_max = 1e-12;
-    system_.for_each_prescribed(state_.time(), [&](int, int, double v) { v_max = std::max(v_max, std::abs(v)); });
+    system_.for_each_prescribed(state_.time(),
+                                [&](int, int, double v) { v_max = std::max(v_max, std::abs(v)); });
     return mesh().h_max() / mesh().comm.max(v_max);
   }
 
@@ -181,9 +223,22 @@ class FlowProblem {
   FluidParameters<typename Model::Rheology> fluid_;
   BlockCsr<B> K_;
   std::vector<double> R_, reaction_, update_, zero_;
+  std::vector<double> volumes_;  ///< of owned nodes, in an enclosed flow
   LinearSolver<B> solver_;
   std::function<void(const NewtonReport&)> watch_;
+  double c_inertia_of_setup_ = -1.0;
   bool inertia_ = true, smooth_start_ = false;
 };
+
+// Compiled once, in src/instantiate.
+extern template class FlowProblem<Tri1>;
+extern template class FlowProblem<Tri2>;
+extern template class FlowProblem<Quad1>;
+extern template class FlowProblem<Quad2>;
+extern template class FlowProblem<Tet1>;
+extern template class FlowProblem<Tet2>;
+extern template class FlowProblem<Hex1>;
+extern template class FlowProblem<Hex2>;
+extern template class FlowProblem<Wedge1>;
 
 }  // namespace ifsi

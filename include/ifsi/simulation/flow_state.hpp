@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The flow between two time levels: what generalized-alpha keeps, and the levels at which the equations hold.
+/// The flow between two time levels: what generalized-alpha keeps, and the levels at which the equations
+/// hold.
 
 #include <span>
 #include <vector>
@@ -17,7 +18,8 @@ class FlowState {
   static constexpr int dim = B - 1;
 
   FlowState() = default;
-  explicit FlowState(int n_nodes) : u(n_nodes * B), rate(u), old_(u), old_rate_(u), p_last_(n_nodes), p_before_(p_last_) {}
+  explicit FlowState(int n_nodes)
+      : u(n_nodes * B), rate(u), old_(u), old_rate_(u), p_last_(n_nodes), p_before_(p_last_) {}
 
   std::vector<double> u;     ///< v and p at n + alpha_f
   std::vector<double> rate;  ///< dv/dt at n + alpha_m; its pressure entries stay zero
@@ -41,8 +43,8 @@ class FlowState {
     n_steps_ = 0;
   }
 
-  /// Opens the step to t + dt with a prediction: constant acceleration and linear pressure when `smooth`, else
-  /// constant velocity and pressure.
+  /// Opens the step to t + dt with a prediction: constant acceleration and linear pressure when `smooth`,
+  /// else constant velocity and pressure.
   void begin_step(const GeneralizedAlpha& scheme, double dt, bool smooth) {
     scheme_ = scheme, dt_ = dt;
     t_alpha_ = t_ + scheme.alpha_f * dt;
@@ -91,19 +93,24 @@ class FlowState {
   }
   [[nodiscard]] double pressure(int node) const { return extrapolated_pressure(node, t_); }
 
+  /// Pressure of the last step, at its alpha_f.
+  [[nodiscard]] double last_pressure(int node) const { return p_last_[node]; }
+
   /// Adds a constant to the pressure of the completed level (its mean is arbitrary in an enclosed flow).
   void shift_pressure(double by) {
     for (double& p : p_last_) p += by;
   }
 
-  /// Calls visit(name, array) for everything a restart needs; scalars go in and out through `scalars`.
+  /// Calls visit(name, array, numbers per node) for every array a restart needs.
   template <class Visit>
   void for_each_array(Visit&& visit) {
-    visit("velocity", old_, B);
-    visit("acceleration", old_rate_, B);
-    visit("pressure", p_last_, 1);
-    visit("pressure_before", p_before_, 1);
+    for_each_array(*this, visit);
   }
+  template <class Visit>
+  void for_each_array(Visit&& visit) const {
+    for_each_array(*this, visit);
+  }
+  /// The numbers a restart needs besides.
   [[nodiscard]] std::vector<double> scalars() const {
     return {t_, t_alpha_, t_p_last_, t_p_before_, static_cast<double>(n_steps_)};
   }
@@ -113,7 +120,16 @@ class FlowState {
   [[nodiscard]] int n_steps() const { return n_steps_; }
 
  private:
-  [[nodiscard]] double new_velocity(std::size_t i) const { return old_[i] + (u[i] - old_[i]) / scheme_.alpha_f; }
+  template <class Self, class Visit>
+  static void for_each_array(Self& self, Visit& visit) {
+    visit("velocity", self.old_, B);
+    visit("acceleration", self.old_rate_, B);
+    visit("pressure", self.p_last_, 1);
+    visit("pressure_before", self.p_before_, 1);
+  }
+  [[nodiscard]] double new_velocity(std::size_t i) const {
+    return old_[i] + (u[i] - old_[i]) / scheme_.alpha_f;
+  }
   [[nodiscard]] double new_rate(std::size_t i) const {
     return scheme_.rate(new_velocity(i), old_[i], old_rate_[i], dt_);
   }
@@ -121,8 +137,8 @@ class FlowState {
   GeneralizedAlpha scheme_;
   double dt_ = 1.0, t_ = 0.0, t_alpha_ = 0.0, t_p_last_ = 0.0, t_p_before_ = 0.0;
   int n_steps_ = 0;
-  std::vector<double> old_, old_rate_;       ///< level n
-  std::vector<double> p_last_, p_before_;    ///< pressures of the last two steps, at their alpha_f
+  std::vector<double> old_, old_rate_;     ///< level n
+  std::vector<double> p_last_, p_before_;  ///< pressures of the last two steps, at their alpha_f
 };
 
 }  // namespace ifsi

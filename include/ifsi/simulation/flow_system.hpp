@@ -72,6 +72,11 @@ class FlowSystem {
                                 K);
   }
 
+  /// Parts of the pressure Schur complement at a state (eq. 14).
+  [[nodiscard]] SchurParts schur_parts(const FlowFields& fields, const Parameters& fluid) const {
+    return assembler_.schur_parts(fields, fluid);
+  }
+
   /// Force of the fluid on a boundary from the residual before elimination (eq. 12), summed over the ranks.
   [[nodiscard]] Vec<double, dim> force(const std::string& boundary, std::span<const double> R) const {
     auto F = Vec<double, dim>::zero();
@@ -148,5 +153,16 @@ class FlowSystem {
   ConstraintMask mask_;
   std::vector<Prescribed> prescribed_;
 };
+
+// Compiled once, in src/instantiate.
+extern template class FlowSystem<Tri1>;
+extern template class FlowSystem<Tri2>;
+extern template class FlowSystem<Quad1>;
+extern template class FlowSystem<Quad2>;
+extern template class FlowSystem<Tet1>;
+extern template class FlowSystem<Tet2>;
+extern template class FlowSystem<Hex1>;
+extern template class FlowSystem<Hex2>;
+extern template class FlowSystem<Wedge1>;
 
 }  // namespace ifsi

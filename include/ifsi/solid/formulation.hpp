@@ -49,6 +49,13 @@ struct Displacement {
     [[nodiscard]] T energy(int q) const { return law_.psi(cell_.F[q], cell_.X[q]); }
     [[nodiscard]] Mat<T, n> first_piola(int q) const { return law_.first_piola(cell_.F[q], cell_.X[q]); }
     [[nodiscard]] Tangent<T, n> tangent(int q) const { return law_.tangent(cell_.F[q], cell_.X[q]); }
+    /// Linear change of the stresses with the deformation gradients.
+    [[nodiscard]] std::array<Mat<T, n>, n_points> stress_increments(
+        const std::array<Mat<T, n>, n_points>& dF) const {
+      std::array<Mat<T, n>, n_points> dP;
+      for (int q = 0; q < n_points; ++q) dP[q] = contract(tangent(q), dF[q]);
+      return dP;
+    }
     /// Cauchy stress in all three directions.
     [[nodiscard]] Mat<T, 3> cauchy(int q) const { return detail::cauchy(law_, cell_.F[q], cell_.X[q]); }
 
@@ -174,6 +181,20 @@ struct MeanDilatation {
         return T(pJ * (G(i, J) * G(k, L) - G(i, L) * G(k, J)));
       });
       return psi;
+    }
+    /// Linear change of the stresses with the deformation gradients of all points.
+    [[nodiscard]] std::array<Mat<T, n>, n_points> stress_increments(
+        const std::array<Mat<T, n>, n_points>& dF) const {
+      T d_theta = T(0.0), d_psi_theta = T(0.0);
+      for (int q = 0; q < n_points; ++q) d_theta += inner(dtheta(q), dF[q]);
+      std::array<Mat<T, n>, n_points> dP;
+      for (int q = 0; q < n_points; ++q) {
+        const DilatedTangent<T, n> psi = tangent(q);
+        dP[q] = contract(psi.FF, dF[q]) + d_theta * psi.F_theta;
+        d_psi_theta += cell_.dV[q] * (inner(psi.F_theta, dF[q]) + psi.theta_theta * d_theta);
+      }
+      for (int q = 0; q < n_points; ++q) dP[q] += T(inverse_V_ * d_psi_theta) * cofactor(q);
+      return dP;
     }
     /// Cauchy stress in all three directions, the law's at the mean dilatation.
     [[nodiscard]] Mat<T, 3> cauchy(int q) const { return at(q).cauchy(); }

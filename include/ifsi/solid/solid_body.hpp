@@ -125,18 +125,27 @@ class SolidBody {
   template <class Sink>
   DeformationReport residual_and_tangent(const SolidState& state, const StateSlopes& slopes,
                                          std::span<const int> cells, Sink&& sink) const {
-    alignas(64) double R[lanes][n_cell_dofs];
-    alignas(64) double K[lanes][n_cell_dofs * n_cell_dofs];
+    Unpacked out;
     return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
-      kernel.residual_and_tangent(
-          parameters, slopes, [&](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); },
-          [&](int a, int b, const Mat<T, dim>& K_ab) {
-            unpack(K_ab.data, dim * dim, K, (a * n + b) * dim * dim);
-          });
-      for (int l = 0; l < batch.n_cells; ++l)
-        if (batch.sound[l])
-          sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs),
-               std::span<const double>(K[l], n_cell_dofs * n_cell_dofs));
+      kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent());
+      out.send(batch, sink);
+    });
+  }
+
+  /// The same with a tangent that makes Newton's method robust over large steps: see
+  /// SolidCell::extrapolated_stresses. `u_before` is the displacement of the iteration before this one.
+  template <class Sink>
+  DeformationReport residual_and_robust_tangent(const SolidState& state, std::span<const double> u_before,
+                                                const StateSlopes& slopes, std::span<const int> cells,
+                                                Sink&& sink) const {
+    Unpacked out;
+    return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+      const SolidCellData<Element, T> before = gather(batch, {u_before}), now = gather(batch, state);
+      std::array<Vec<T, dim>, n> du;
+      for (int a = 0; a < n; ++a) du[a] = now.u[a] - before.u[a];
+      const auto stresses = Kernel(before, law_).extrapolated_stresses(du);
+      kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent(), &stresses);
+      out.send(batch, sink);
     });
   }
 
@@ -261,6 +270,28 @@ class SolidBody {
     for (int k = 0; k < m; ++k)
       for (int l = 0; l < lanes; ++l) rows[l][offset + k] = values[k][l];
   }
+
+  /// Residuals and tangents of a batch, cell by cell.
+  struct Unpacked {
+    alignas(64) double R[lanes][n_cell_dofs];
+    alignas(64) double K[lanes][n_cell_dofs * n_cell_dofs];
+
+    auto residual() {
+      return [this](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); };
+    }
+    auto tangent() {
+      return [this](int a, int b, const Mat<T, dim>& K_ab) {
+        unpack(K_ab.data, dim * dim, K, (a * n + b) * dim * dim);
+      };
+    }
+    template <class Sink>
+    void send(const Batch& batch, Sink&& sink) const {
+      for (int l = 0; l < batch.n_cells; ++l)
+        if (batch.sound[l])
+          sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs),
+               std::span<const double>(K[l], n_cell_dofs * n_cell_dofs));
+    }
+  };
 
   /// Calls visit<Face>(nodes) with the element and the nodes of boundary face f.
   template <class Visit>

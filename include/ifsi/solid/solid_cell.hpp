@@ -45,6 +45,8 @@ class SolidCell {
   using Response = typename Formulation::template Response<Law, T, n, dim, n_points>;
 
  public:
+  using Stresses = std::array<Mat<T, n>, n_points>;
+
   /// Kinematics at all points. \pre the law outlives the cell
   SolidCell(const Data& cell, const Law& law) : cell_(cell), law_(law) {
     using std::min;
@@ -63,16 +65,39 @@ class SolidCell {
   }
 
   /// Also tangent(a, b, K_ab): the dim x dim block of each node pair.
+  /// With `extrapolated` (see extrapolated_stresses) its stresses take the place of the present ones in the
+  /// geometric part of the tangent.
   template <class ResidualSink, class TangentSink>
   void residual_and_tangent(const SolidParameters<dim>& solid, const StateSlopes& slopes,
-                            ResidualSink&& residual, TangentSink&& tangent) const {
+                            ResidualSink&& residual, TangentSink&& tangent,
+                            const Stresses* extrapolated = nullptr) const {
     const Response response(law_, deformation_);
     residual_of_nodes(stresses(solid, response), solid, residual);
-    const Stiffness stiffness(*this, solid, slopes, response);
+    Stiffness stiffness(*this, solid, slopes, response);
+    if (extrapolated != nullptr) stiffness.replace_geometric(*extrapolated, slopes.u, response);
     for (int b = 0; b < n_nodes; ++b) {
       const auto trial = stiffness.trial(b);
       for (int a = 0; a < n_nodes; ++a) tangent(a, b, stiffness.block(a, b, trial));
     }
+  }
+
+  /// Elastic second Piola-Kirchhoff stresses that the linearisation here predicts for the displacement u + du.
+  ///
+  /// A Newton step that rotates stiff material overshoots: the strain at u + du is quadratic in the rotation,
+  /// and the stress it causes spoils the next tangent. With these stresses in the geometric part of that
+  /// tangent (residual and limit unchanged) the iteration is that of a mixed method with the stress as its
+  /// own unknown, which converges over far larger load steps (Magisano, Leonetti & Garcea 2017).
+  [[nodiscard]] Stresses extrapolated_stresses(const std::array<Vec<T, dim>, n_nodes>& du) const {
+    const Response response(law_, deformation_);
+    std::array<Mat<T, n>, n_points> dF;
+    for (int q = 0; q < n_points; ++q) dF[q] = gradient(q, du);
+    const Stresses dP = response.stress_increments(dF);
+    Stresses S;
+    for (int q = 0; q < n_points; ++q) {
+      const Mat<T, n> F_inv = inverse(deformation_.F[q]), P = response.first_piola(q);
+      S[q] = F_inv * (P + dP[q] - dF[q] * (F_inv * P));
+    }
+    return S;
   }
 
   /// Volume, energies and momentum of the solid itself (density rho_s).
@@ -134,10 +159,9 @@ class SolidCell {
   }
 
   /// First Piola-Kirchhoff stress times volume element at each point.
-  [[nodiscard]] std::array<Mat<T, n>, n_points> stresses(const SolidParameters<dim>& solid,
-                                                         const Response& response) const {
+  [[nodiscard]] Stresses stresses(const SolidParameters<dim>& solid, const Response& response) const {
     const double eta = solid.mu_s - solid.mu_f;
-    std::array<Mat<T, n>, n_points> P;
+    Stresses P;
     for (int q = 0; q < n_points; ++q) {
       P[q] = response.first_piola(q);
       if (eta != 0) P[q] += viscous_piola(deformation_.F[q], gradient(q, cell_.v), eta);
@@ -159,7 +183,7 @@ class SolidCell {
   }
 
   template <class Sink>
-  void residual_of_nodes(const std::array<Mat<T, n>, n_points>& P, const SolidParameters<dim>& solid,
+  void residual_of_nodes(const Stresses& P, const SolidParameters<dim>& solid,
                          Sink&& sink) const {
     std::array<Vec<T, dim>, n_points> b;
     for (int q = 0; q < n_points; ++q) b[q] = excess_mass(q, solid) * inertial_acceleration(q, solid);
@@ -200,16 +224,29 @@ class SolidCell<Element, Law, Formulation, Coordinates, Rule, T>::Stiffness {
   Stiffness(const SolidCell& cell, const SolidParameters<dim>& solid, const StateSlopes& slopes,
             const Response& response)
       : cell_(cell), immersed_(solid.rho_f != 0) {
-    const double eta = solid.mu_s - solid.mu_f;
     if constexpr (mean_dilatation) coupling_.clear();
     for (int q = 0; q < n_points; ++q) {
-      const Mat<T, n>& F = cell.deformation_.F[q];
-      Tangent<T, n> A = elastic(q, slopes.u, response);
-      if (eta != 0) add_viscous_tangent(A, F, cell.gradient(q, cell.cell_.v), eta, slopes);
-      for (int s = 0; s < n_slots; ++s)
-        for (int t = 0; t < n_slots; ++t) A_[q](s, t) = A(entry(s), entry(t)) * cell.deformation_.dV[q];
+      const T dV = cell.deformation_.dV[q];
+      set_elastic(q, slopes.u, response);
+      if (const double eta = solid.mu_s - solid.mu_f; eta != 0) {
+        const Mat<T, n> Grad_v = cell.gradient(q, cell.cell_.v);
+        const ViscousTangent<T, n> viscous(cell.deformation_.F[q], Grad_v, T(eta * dV), slopes);
+        for (int s = 0; s < n_slots; ++s)
+          for (int t = 0; t < n_slots; ++t) A_[q](s, t) += viscous(row(s), column(s), row(t), column(t));
+      }
       mass_[q] = slopes.a * cell.excess_mass(q, solid);
       if (immersed_) set_fluid_mass_slope(q, solid, slopes.u);
+    }
+  }
+
+  void replace_geometric(const Stresses& S, double slope, const Response& response) {
+    for (int q = 0; q < n_points; ++q) {
+      const Mat<T, n> F_inv = inverse(cell_.deformation_.F[q]);
+      const Mat<T, n> dS =
+          T(slope * cell_.deformation_.dV[q]) * (S[q] - F_inv * response.first_piola(q));
+      for (int s = 0; s < n_slots; ++s)
+        for (int t = 0; t < n_slots; ++t)
+          if (row(s) == row(t)) A_[q](s, t) += dS(column(s), column(t));
     }
   }
 
@@ -248,10 +285,9 @@ class SolidCell<Element, Law, Formulation, Coordinates, Rule, T>::Stiffness {
   }
 
  private:
-  /// Entry of an n x n matrix that slot s stands for.
-  static constexpr int entry(int s) {
-    return axisymmetric && s == hoop_slot ? n * n - 1 : s / dim * n + s % dim;
-  }
+  /// Row and column of the entry of F that slot s stands for.
+  static constexpr int row(int s) { return axisymmetric && s == hoop_slot ? n - 1 : s / dim; }
+  static constexpr int column(int s) { return axisymmetric && s == hoop_slot ? n - 1 : s % dim; }
 
   /// B : dF for each displacement component of one node: what the gradient B of a scalar makes of it.
   static Vec<T, dim> divergence(const Mat<T, n>& B, const Gradient& w) {
@@ -264,14 +300,20 @@ class SolidCell<Element, Law, Formulation, Coordinates, Rule, T>::Stiffness {
     return r;
   }
 
-  Tangent<T, n> elastic(int q, double slope, const Response& response) {
+  void set_elastic(int q, double slope, const Response& response) {
     if constexpr (mean_dilatation) {
       const DilatedTangent<T, n> psi = response.tangent(q);
       coupling_.add_point(cell_, q, slope, response.dtheta(q), psi);
-      return T(slope) * psi.FF;
+      store(q, slope, psi.FF);
     } else {
-      return T(slope) * response.tangent(q);
+      store(q, slope, response.tangent(q));
     }
+  }
+  void store(int q, double slope, const Tangent<T, n>& A) {
+    const T scale = slope * cell_.deformation_.dV[q];
+    for (int s = 0; s < n_slots; ++s)
+      for (int t = 0; t < n_slots; ++t)
+        A_[q](s, t) = scale * A(row(s) * n + column(s), row(t) * n + column(t));
   }
 
   /// -rho_f (a - g) dJ: the displaced fluid mass changes with the volume of the solid.

@@ -58,23 +58,29 @@ Mat<T, n> viscous_piola(const Mat<T, n>& F, const Mat<T, n>& Grad_v, double eta)
   return T(eta * det(F)) * ((l + transpose(l)) * transpose(F_inv));
 }
 
-/// Adds slopes.u dP/dF + slopes.v dP/d(Grad v) of viscous_piola to A. With G = F^-T, sigma = eta (l + l^T):
+/// Tangent slopes.u dP/dF + slopes.v dP/d(Grad v) of viscous_piola, entry by entry. With G = F^-T and
+/// sigma = eta (l + l^T):
 ///   dP/dF        = J [ (sigma G)_iJ G_kL - (sigma G)_iL G_kJ - eta ( l_ik (G^T G)_LJ + G_iL (l^T G)_kJ ) ]
 ///   dP/d(Grad v) = eta J [ delta_ik (G^T G)_JL + G_iL G_kJ ]
 template <class T, int n>
-void add_viscous_tangent(Tangent<T, n>& A, const Mat<T, n>& F, const Mat<T, n>& Grad_v, double eta,
-                         const StateSlopes& slopes) {
-  const Mat<T, n> F_inv = inverse(F), G = transpose(F_inv), C_inv = F_inv * G;
-  const Mat<T, n> l = Grad_v * F_inv;
-  const T eta_J = eta * det(F);
-  const Mat<T, n> sigma_G = T(slopes.u * eta_J) * ((l + transpose(l)) * G);
-  const Mat<T, n> l_u = T(slopes.u * eta_J) * l, lT_G = transpose(l_u) * G;
-  const Mat<T, n> G_v = T(slopes.v * eta_J) * G;
-  A += tangent_from<T, n>([&](int i, int J, int k, int L) {
-    return T(sigma_G(i, J) * G(k, L) - sigma_G(i, L) * G(k, J) - l_u(i, k) * C_inv(L, J) -
-             G(i, L) * lT_G(k, J) + G_v(i, L) * G(k, J));
-  });
-  add_geometric(A, T(slopes.v * eta_J) * C_inv);
-}
+class ViscousTangent {
+ public:
+  ViscousTangent(const Mat<T, n>& F, const Mat<T, n>& Grad_v, const T& eta, const StateSlopes& slopes) {
+    const Mat<T, n> F_inv = inverse(F), l = Grad_v * F_inv;
+    const T eta_J = eta * det(F), u = slopes.u * eta_J, v = slopes.v * eta_J;
+    G_ = transpose(F_inv);
+    C_inv_ = F_inv * G_;
+    sigma_G_ = u * ((l + transpose(l)) * G_);
+    lT_G_ = v * G_ - u * (transpose(l) * G_);
+    l_ = v * Mat<T, n>::identity() - u * l;
+  }
+  T operator()(int i, int J, int k, int L) const {
+    return sigma_G_(i, J) * G_(k, L) - sigma_G_(i, L) * G_(k, J) + l_(i, k) * C_inv_(J, L) +
+           G_(i, L) * lT_G_(k, J);
+  }
+
+ private:
+  Mat<T, n> G_, C_inv_, sigma_G_, lT_G_, l_;
+};
 
 }  // namespace ifsi

@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// Block triangular preconditioner of the coupled velocity-pressure system.
+
+#include <memory>
+#include <string>
+
+#include "ifsi/linalg/block_csr.hpp"
+#include "ifsi/linalg/schur_parts.hpp"
+
+namespace ifsi {
+
+struct SaddleOptions {
+  /// Approximate inverse of the velocity block: "ilu", "gauss_seidel", "amg", or "auto": ILU(0) up to
+  /// viscous_limit, AMG beyond.
+  std::string velocity = "auto";
+  double viscous_limit = 2.0;  ///< of SchurParts::viscous_number
+  bool enclosed = false;       ///< the pressure is known up to a constant
+};
+
+/// For K = [A G; D L] with (v, p) of a node side by side:
+///
+///     z_p = S^-1 r_p,              S^-1 = M^-1 + [L + N]^-1
+///     z_v = A^-1 (r_v - G z_p)
+///
+/// with M the lumped pressure mass over viscosity and N the Laplacian of SchurParts, [L + N]^-1 by one
+/// V-cycle. Where velocity is free on a boundary S acts on constants, N does not: there N gets a Robin term
+/// (see add_outlet_terms). B = dim + 1. Rows of prescribed unknowns are diagonal rows.
+template <int B>
+class SaddlePreconditioner {
+ public:
+  static constexpr int dim = B - 1;
+
+  /// Throws Error(configuration) for an unknown velocity solver.
+  explicit SaddlePreconditioner(SaddleOptions options = {});
+  ~SaddlePreconditioner();
+  SaddlePreconditioner(SaddlePreconditioner&&) noexcept;
+  SaddlePreconditioner& operator=(SaddlePreconditioner&&) noexcept;
+
+  /// Collective. Sets everything up for K; nothing of K or parts is referred to afterwards.
+  /// Throws Error(linear_solver) when a part is singular or does not have K's pattern.
+  void update(const BlockCsr<B>& K, const SchurParts& parts);
+
+  /// Collective. z = P^-1 r on owned nodes; both hold n_local * B numbers.
+  void apply(const double* r, double* z);
+
+  /// What update chose and built, in one line. Collective.
+  [[nodiscard]] std::string description() const;
+  /// Cost of update in applications, a rough constant per velocity solver.
+  [[nodiscard]] double setup_cost() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+extern template class SaddlePreconditioner<3>;
+extern template class SaddlePreconditioner<4>;
+
+}  // namespace ifsi

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Meshes of the solid benchmarks: Cook's membrane and the flag of Turek & Hron.
+
+#include <cmath>
+
+#include "ifsi/mesh/box.hpp"
+
+namespace ifsi {
+
+/// Cook's membrane, the trapezoid (0,0), (48,44), (48,60), (0,44), with n cells along each side. In space it is
+/// one unit thick, one cell through the thickness. Boundaries left, right, bottom, top(, front, back).
+template <class Element>
+GlobalMesh<Element> cook_membrane(int n) {
+  GlobalMesh<Element> mesh;
+  if constexpr (Element::dim == 2)
+    mesh = box<Element>({0, 0}, {1, 1}, {n, n});
+  else
+    mesh = box<Element>({0, 0, 0}, {1, 1, 1}, {n, n, 1});
+  for (auto& x : mesh.points) {
+    const double s = x[0], t = x[1];
+    x[0] = 48 * s;
+    x[1] = 44 * s + t * (44 - 28 * s);
+  }
+  return mesh;
+}
+
+/// The elastic flag of Turek & Hron (2006): from the back of the cylinder at (0.2, 0.2), radius 0.05, to x = 0.6,
+/// 0.02 thick. Boundaries left (on the cylinder), right, bottom, top.
+template <class Element>
+GlobalMesh<Element> turek_hron_flag(int n_x, int n_y) {
+  GlobalMesh<Element> mesh = box<Element>({0, -0.01}, {1, 0.01}, {n_x, n_y});
+  for (auto& x : mesh.points) {
+    const double root = 0.2 + std::sqrt(0.05 * 0.05 - x[1] * x[1]);
+    x = {root + x[0] * (0.6 - root), 0.2 + x[1]};
+  }
+  return mesh;
+}
+
+}  // namespace ifsi

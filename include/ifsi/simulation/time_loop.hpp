@@ -1,0 +1,111 @@
+#pragma once
+/// \file
+/// The march in time: step control with retry, progress, checkpoints, stop requests.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "ifsi/io/mesh_checkpoint.hpp"
+#include "ifsi/io/run.hpp"
+#include "ifsi/simulation/newton.hpp"
+
+namespace ifsi {
+
+struct TimeOptions {
+  double dt = 0.01, end = 1.0;
+  double dt_min_factor = 1e-3;    ///< dt may be cut to this part of what was asked for
+  double checkpoint_every = 0.0;  ///< time between checkpoints; 0: only when stopped
+
+  void declare(Parameters& params) {
+    params.add("time.dt", dt, "time", "time step", positive);
+    params.add("time.end", end, "time", "end of the run", positive);
+    params.add("time.dt_min_factor", dt_min_factor, "-", "smallest step after cuts, as a part of dt",
+               {1e-9, 1.0});
+    params.add("time.checkpoint_every", checkpoint_every, "time",
+               "time between checkpoints (0: only when stopped)", non_negative);
+  }
+};
+
+/// Halves the step when one fails, doubles it back towards the one asked for after eight good ones.
+class StepControl {
+ public:
+  StepControl(double dt, double min_factor) : dt_(dt), nominal_(dt), min_(min_factor * dt) {}
+  /// The next step, so that `end` is met exactly and no crumb is left before it.
+  [[nodiscard]] double next(double t, double end) const {
+    const double left = end - t;
+    const double n = std::max(1.0, std::ceil(left / dt_ - 1e-6));
+    return n > 2.0 ? dt_ : left / n;
+  }
+  void accepted() {
+    if (++good_ < 8 || dt_ == nominal_) return;
+    dt_ = std::min(2.0 * dt_, nominal_);
+    good_ = 0;
+  }
+  /// \throws Error (nonlinear) with the reason when the step is as small as allowed.
+  void rejected(double t, const std::string& reason) {
+    dt_ *= 0.5, good_ = 0, ++cuts_;
+    if (dt_ < min_)
+      throw Error(ExitCode::nonlinear, "the step from t = " + std::to_string(t) + " fails even at dt = " +
+                                           std::to_string(2.0 * dt_) + ": " + reason);
+  }
+  [[nodiscard]] int cuts() const { return cuts_; }
+
+ private:
+  double dt_, nominal_, min_;
+  int good_ = 0, cuts_ = 0;
+};
+
+/// A problem that steps in time: step(dt) leaves it unchanged when it does not converge.
+template <class P>
+concept TransientProblem = requires(P& p, CheckpointWriter& out, const Checkpoint& in) {
+  { p.step(0.1) } -> std::same_as<NewtonReport>;
+  { p.time() } -> std::convertible_to<double>;
+  p.save(out);
+  p.restore(in);
+};
+
+/// Marches to the end time. `observe(dt)` is called after each accepted step. A restarted run continues from
+/// its checkpoint; a stop request writes one and ends the run with ExitCode::stopped.
+template <TransientProblem Problem, class Observe>
+void march(Run& run, Problem& problem, const TimeOptions& time, Observe&& observe) {
+  const auto save = [&] {
+    CheckpointWriter checkpoint(run.comm());
+    problem.save(checkpoint);
+    return checkpoint.save(run.path(""), run.totals.steps);
+  };
+  StepControl control(time.dt, time.dt_min_factor);
+  double next_checkpoint = problem.time() + time.checkpoint_every;
+  while (problem.time() < time.end * (1.0 - 1e-10)) {
+    const double t = problem.time(), dt = control.next(t, time.end);
+    const NewtonReport report = problem.step(dt);
+    run.totals.newton += report.iterations;
+    run.totals.gmres += report.gmres;
+    if (!report.converged) {
+      char line[200];
+      std::snprintf(line, sizeof line, "step to t = %.6g rejected, dt %.3g is halved: %s", t + dt, dt,
+                    report.failure.c_str());
+      run.log(line);
+      control.rejected(t, report.failure);
+      continue;
+    }
+    control.accepted();
+    ++run.totals.steps;
+    observe(dt);
+    char line[160];
+    std::snprintf(line, sizeof line, "t %.5g  dt %.3g  newton %d  gmres %d  residual %.1e %.1e",
+                  problem.time(), dt, report.iterations, report.gmres, report.residual.momentum,
+                  report.residual.mass);
+    run.progress(problem.time() / time.end, line);
+    if (run.stop_requested())
+      throw Error(ExitCode::stopped,
+                  "stopped at t = " + std::to_string(problem.time()) + "; continue from " + save());
+    if (time.checkpoint_every > 0.0 && problem.time() >= next_checkpoint) {
+      save();
+      next_checkpoint += time.checkpoint_every;
+    }
+  }
+}
+
+}  // namespace ifsi

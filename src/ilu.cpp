@@ -1,0 +1,133 @@
+#include "ifsi/linalg/ilu.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "ifsi/core/error.hpp"
+#include "ifsi/core/tensor.hpp"
+#include "ifsi/linalg/block_row.hpp"
+
+namespace ifsi {
+namespace {
+
+/// Replaces a block by its inverse; computed in double, since pivots may be nearly singular in float.
+template <int D>
+void invert(float* block, int row) {
+  Mat<double, D> A;
+  for (int e = 0; e < D * D; ++e) A.data[e] = block[e];
+  const double d = det(A);
+  if (!(std::abs(d) > 0) || !std::isfinite(d))
+    throw Error(ExitCode::linear_solver, "incomplete factorisation: singular diagonal block at local node " +
+                                             std::to_string(row) + "; expected a regular velocity block");
+  const Mat<double, D> inverse_of_A = inverse(A);
+  for (int e = 0; e < D * D; ++e) block[e] = static_cast<float>(inverse_of_A.data[e]);
+}
+
+/// y = A x for one block.
+template <int D>
+void multiply(const float* A, const float* x, float* y) {
+  for (int r = 0; r < D; ++r) {
+    float sum = 0;
+    for (int c = 0; c < D; ++c) sum += A[r * D + c] * x[c];
+    y[r] = sum;
+  }
+}
+
+/// C -= A B for blocks.
+template <int D>
+void subtract_product(const float* A, const float* B, float* C) {
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c < D; ++c)
+      for (int k = 0; k < D; ++k) C[r * D + c] -= A[r * D + k] * B[k * D + c];
+}
+
+/// y = b_i - sum of the blocks [begin, end) times x.
+template <int D>
+void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, const float* x, float* y) {
+  BlockRow<float, D> row;
+  for (int k = begin; k < end; ++k) row.add(A.at(k), x + static_cast<std::size_t>(A.cols[k]) * D);
+  row.store(y);
+  for (int r = 0; r < D; ++r) y[r] = b[r] - y[r];
+}
+
+}  // namespace
+
+template <int D>
+void BlockIlu<D>::factor() {
+  std::vector<int> position(LU_.n_rows(), -1);
+  for (int i = 0; i < LU_.n_rows(); ++i) {
+    eliminate_row(i, position);
+    invert<D>(LU_.at(LU_.diagonal[i]), i);
+  }
+}
+
+/// Row i after the rows above it. `position` maps a column to its block in row i; -1 elsewhere, also on
+/// return.
+template <int D>
+void BlockIlu<D>::eliminate_row(int i, std::vector<int>& position) {
+  for (int k = LU_.row_ptr[i]; k < LU_.row_ptr[i + 1]; ++k) position[LU_.cols[k]] = k;
+  for (int k = LU_.row_ptr[i]; k < LU_.diagonal[i]; ++k) {
+    const int j = LU_.cols[k];
+    float L[D * D] = {}, *A = LU_.at(k);
+    const float* pivot = LU_.at(LU_.diagonal[j]);
+    for (int r = 0; r < D; ++r)
+      for (int c = 0; c < D; ++c)
+        for (int e = 0; e < D; ++e) L[r * D + c] += A[r * D + e] * pivot[e * D + c];
+    std::copy_n(L, D * D, A);
+    for (int u = LU_.diagonal[j] + 1; u < LU_.row_ptr[j + 1]; ++u)
+      if (const int to = position[LU_.cols[u]]; to >= 0) subtract_product<D>(L, LU_.at(u), LU_.at(to));
+  }
+  for (int k = LU_.row_ptr[i]; k < LU_.row_ptr[i + 1]; ++k) position[LU_.cols[k]] = -1;
+}
+
+template <int D>
+void BlockIlu<D>::apply(const float* b, float* x) const {
+  for (int i = 0; i < LU_.n_rows(); ++i)
+    row_residual<D>(LU_, LU_.row_ptr[i], LU_.diagonal[i], b + static_cast<std::size_t>(i) * D, x,
+                    x + static_cast<std::size_t>(i) * D);
+  float rest[D];
+  for (int i = LU_.n_rows() - 1; i >= 0; --i) {
+    float* xi = x + static_cast<std::size_t>(i) * D;
+    row_residual<D>(LU_, LU_.diagonal[i] + 1, LU_.row_ptr[i + 1], xi, x, rest);
+    multiply<D>(LU_.at(LU_.diagonal[i]), rest, xi);
+  }
+}
+
+template <int D>
+void BlockGaussSeidel<D>::invert_diagonals() {
+  inverse_.resize(static_cast<std::size_t>(A_.n_rows()) * D * D);
+  for (int i = 0; i < A_.n_rows(); ++i) {
+    float* block = &inverse_[static_cast<std::size_t>(i) * D * D];
+    std::copy_n(A_.at(A_.diagonal[i]), D * D, block);
+    invert<D>(block, i);
+  }
+}
+
+template <int D>
+void BlockGaussSeidel<D>::apply(const float* b, float* x) const {
+  float rest[D];
+  const auto relax = [&](int i, int begin, int end) {
+    row_residual<D>(A_, begin, end, b + static_cast<std::size_t>(i) * D, x, rest);
+  };
+  // Forward, from zero: what lies above the diagonal has not been reached yet.
+  for (int i = 0; i < A_.n_rows(); ++i) {
+    relax(i, A_.row_ptr[i], A_.diagonal[i]);
+    multiply<D>(&inverse_[static_cast<std::size_t>(i) * D * D], rest, x + static_cast<std::size_t>(i) * D);
+  }
+  // Backward: the whole row, the old value of the diagonal taken out again by adding a correction.
+  for (int i = A_.n_rows() - 1; i >= 0; --i) {
+    relax(i, A_.row_ptr[i], A_.row_ptr[i + 1]);
+    float correction[D];
+    multiply<D>(&inverse_[static_cast<std::size_t>(i) * D * D], rest, correction);
+    for (int r = 0; r < D; ++r) x[static_cast<std::size_t>(i) * D + r] += correction[r];
+  }
+}
+
+template class BlockIlu<1>;
+template class BlockIlu<2>;
+template class BlockIlu<3>;
+template class BlockGaussSeidel<1>;
+template class BlockGaussSeidel<2>;
+template class BlockGaussSeidel<3>;
+
+}  // namespace ifsi
