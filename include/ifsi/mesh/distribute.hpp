@@ -141,7 +141,7 @@ std::pair<std::vector<int>, std::vector<long>> local_nodes(const GlobalMesh<Elem
       else
         ghosts.emplace_back(s.global[node], node);
     }
-  std::sort(ghosts.rbegin(), ghosts.rend());
+  std::sort(ghosts.begin(), ghosts.end());
   ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
   std::vector<long> ghost_global;
   for (auto [global, node] : ghosts) {

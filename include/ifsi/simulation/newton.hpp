@@ -72,14 +72,17 @@ NewtonReport newton(System& system, const NewtonOptions& options,
     report.residual = now;
     if (watch) watch(report);
     if (!now.finite()) return report.failure = "residual is not finite", report;
-    if (now.momentum <= options.rtol && now.mass <= options.rtol) return report.converged = true, report;
+    // At least one iteration: a good prediction passes any test, and steps of predictions alone drift away.
+    if (report.iterations > 0 && now.momentum <= options.rtol && now.mass <= options.rtol)
+      return report.converged = true, report;
+    if (now.momentum == 0.0 && now.mass == 0.0) return report.converged = true, report;
     if (report.iterations == options.max_iterations)
       return report.failure = "no convergence in " + std::to_string(report.iterations) + " iterations",
              report;
 
     // Solve no further than this iteration can use: the target, or what the quadratic part will leave anyway.
     const auto target = [&](double r) {
-      return r <= options.rtol ? 1e-1 : std::clamp(0.1 * options.rtol / r, 1e-10, 1e-3);
+      return r <= options.rtol ? 1e-2 : std::clamp(0.1 * options.rtol / r, 1e-10, 1e-3);
     };
     if (report.iterations > 0) system.assemble_tangent();
     const auto linear = system.solve(BlockNorms{target(now.momentum), target(now.mass)});
