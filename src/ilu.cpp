@@ -41,13 +41,14 @@ void subtract_product(const float* A, const float* B, float* C) {
       for (int k = 0; k < D; ++k) C[r * D + c] -= A[r * D + k] * B[k * D + c];
 }
 
-/// y = b_i - sum of the blocks [begin, end) times x.
+/// y = b - sum of the blocks [begin, end) times x; y may be b.
 template <int D>
 void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, const float* x, float* y) {
   BlockRow<float, D> row;
   for (int k = begin; k < end; ++k) row.add(A.at(k), x + static_cast<std::size_t>(A.cols[k]) * D);
-  row.store(y);
-  for (int r = 0; r < D; ++r) y[r] = b[r] - y[r];
+  float sum[D];
+  row.store(sum);
+  for (int r = 0; r < D; ++r) y[r] = b[r] - sum[r];
 }
 
 }  // namespace

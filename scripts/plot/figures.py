@@ -126,15 +126,24 @@ def scalars(data):
     return found
 
 
+def fluid_at(run, time=None):
+    """Number of the frame of the fluid nearest to a time (the last unless told), None without output."""
+    series = run.fields("fluid")
+    if not series:
+        return None
+    return len(series) - 1 if time is None else int(numpy.argmin([abs(t - time) for t, _ in series]))
+
+
 def field(run, name="field", time=None, window=None, streamlines=False):
     """Speed and pressure at one time (the last unless told), the solids drawn over them.
     window: (x min, x max, y min, y max) in the plane of the picture."""
-    series = run.fields("fluid")
-    if not series:
+    frame = fluid_at(run, time)
+    if frame is None:
         return
-    at = len(series) - 1 if time is None else int(numpy.argmin([abs(t - time) for t, _ in series]))
-    points, corners, data = plane_fields(vtu.read(series[at][1]))
-    solids = [plane_fields(vtu.read(run.fields(solid)[at][1])) for solid in run.solids() if len(run.fields(solid)) > at]
+    series = run.fields("fluid")
+    points, corners, data = plane_fields(vtu.read(series[frame][1]))
+    solids = [plane_fields(vtu.read(run.fields(solid)[frame][1]))
+              for solid in run.solids() if len(run.fields(solid)) > frame]
     window = window or (*extent(points[:, 0]), *extent(points[:, 1]))
     values = scalars(data)
     figure, axes = panels(len(values), window)
@@ -144,9 +153,18 @@ def field(run, name="field", time=None, window=None, streamlines=False):
             add_streamlines(axis, points, corners, data["velocity"], window)
         for solid_points, solid_corners, _ in solids:
             add_solid(axis, solid_points, solid_corners)
-    figure.suptitle(f"{run.case}, t = {series[at][0]:.6g}", fontsize=10)
+    axes[0].set_title(run.case + (f", t = {series[frame][0]:.6g}" if len(series) > 1 else ""), fontsize=10)
     run.save(figure, name)
     pyplot.close(figure)
+
+
+def along(run, start, end, n=400):
+    """Fields of the last frame of a plane flow at n positions between two points: {name: values}."""
+    points, corners, data = plane_fields(vtu.read(run.fields("fluid")[fluid_at(run)][1]))
+    mesh = Triangulation(points[:, 0], points[:, 1], corners)
+    x, y = (numpy.linspace(a, b, n) for a, b in zip(start, end))
+    found = {"velocity_x": data["velocity"][:, 0], "velocity_y": data["velocity"][:, 1], "pressure": data["pressure"]}
+    return {name: LinearTriInterpolator(mesh, values)(x, y) for name, values in found.items()}
 
 
 def extent(x):
@@ -157,22 +175,25 @@ def panels(n, window):
     """n axes for pictures of this window: below each other when it is wide, side by side when it is not."""
     ratio = (window[3] - window[2]) / (window[1] - window[0])
     rows, columns = (n, 1) if ratio < 0.7 else (1, n)
-    width = 8.5 / columns
+    width = 9.0 / columns
     figure, axes = pyplot.subplots(rows, columns, squeeze=False,
-                                   figsize=(8.5, rows * (max(0.9, min(8.0, ratio * width)) + 0.4)))
+                                   figsize=(9.0, rows * (max(0.9, min(8.0, 0.85 * ratio * width)) + 0.35)))
     return figure, axes.ravel()
 
 
 def colour(figure, axis, triangulation, value, label, window):
-    # Pressure is signed and has peaks at corners that would leave the rest without colour.
+    # Pressure has peaks at corners that would leave the rest without colour; where it is signed, white is zero.
     low, high = (0.0, value.max()) if label == "speed" else numpy.percentile(value, [0.5, 99.5])
-    image = axis.tripcolor(triangulation, value, shading="gouraud", rasterized=True, vmin=low, vmax=max(high, low + 1e-300),
-                           cmap="viridis" if label == "speed" else "RdBu_r")
+    signed = low < 0 < high
+    low, high = (-max(-low, high), max(-low, high)) if signed else (low, max(high, low + 1e-300))
+    image = axis.tripcolor(triangulation, value, shading="gouraud", rasterized=True, vmin=low, vmax=high,
+                           cmap="RdBu_r" if signed else "viridis" if label == "speed" else "cividis")
     axis.set_aspect("equal")
     axis.grid(False)
     axis.set_xlim(window[0], window[1])
     axis.set_ylim(window[2], window[3])
-    figure.colorbar(image, ax=axis, label=label, fraction=0.025, pad=0.01)
+    ratio = (window[3] - window[2]) / (window[1] - window[0])
+    figure.colorbar(image, ax=axis, label=label, fraction=0.046 * ratio, pad=0.01, aspect=max(8, 24 * min(1, ratio)))
 
 
 def add_streamlines(axis, points, corners, velocity, window, n=240):

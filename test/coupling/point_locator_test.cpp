@@ -21,10 +21,13 @@ int brute_force(const GlobalMesh<Element>& mesh, const Vec<double, Element::dim>
 template <class Element>
 struct Located : testing::Test {
   static constexpr int dim = Element::dim;
-  GlobalMesh<Element> global = sample::bent<Element>(sample::counts<dim>(dim == 2 ? 6 : 3));
+  GlobalMesh<Element> global = sample::bent<Element>(sample::counts<dim>(dim == 2 ? 6 : 2));
   Mesh<Element> mesh = distribute(global, Communicator(MPI_COMM_SELF));
   PointLocator<Element> locator{mesh};
   sample::Random random{1};
+
+  /// Every so many cells are looked at.
+  int every = 1 + global.n_cells() / 9;
 
   /// Input number of the cell that is found, after checking that x is there.
   int cell_of(const Vec<double, dim>& x, int near = -1) {
@@ -50,7 +53,7 @@ TYPED_TEST(Located, PositionsInsideCells) {
 
 TYPED_TEST(Located, OnVerticesEdgesAndFacesTheLowestCellIsTaken) {
   using Element = TypeParam;
-  for (int c = 0; c < this->global.n_cells(); c += 5)
+  for (int c = 0; c < this->global.n_cells(); c += this->every)
     for (const auto& xi : sample::awkward<Element>(this->random)) {
       const auto x = map<Element>(xi, this->global.cell_coordinates(c));
       const int cell = this->cell_of(x);
@@ -62,9 +65,9 @@ TYPED_TEST(Located, OnVerticesEdgesAndFacesTheLowestCellIsTaken) {
 
 TYPED_TEST(Located, ALittleOffVerticesEdgesAndFaces) {
   using Element = TypeParam;
-  for (int c = 1; c < this->global.n_cells(); c += 7)
+  for (int c = 1; c < this->global.n_cells(); c += this->every)
     for (const auto& xi : sample::awkward<Element>(this->random))
-      for (double off : {1e-16, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-6}) {
+      for (double off : {1e-15, 1e-12, 1e-9, 1e-6}) {
         const auto x = map<Element>(xi, this->global.cell_coordinates(c)) +
                        off * this->random.template vector<Element::dim>(-1, 1);
         const int cell = this->cell_of(x), expected = brute_force(this->global, x);
@@ -77,11 +80,11 @@ TYPED_TEST(Located, ALittleOffVerticesEdgesAndFaces) {
 
 TYPED_TEST(Located, TheAnswerDoesNotDependOnWhereTheSearchBegins) {
   using Element = TypeParam;
-  for (int c = 0; c < this->global.n_cells(); c += 9)
+  for (int c = 0; c < this->global.n_cells(); c += this->every)
     for (const auto& xi : sample::awkward<Element>(this->random)) {
       const auto x = map<Element>(xi, this->global.cell_coordinates(c));
       const auto at = this->locator.find(x);
-      for (int near = 0; near < this->mesh.n_cells(); near += 1 + this->random.below(4)) {
+      for (int near = 0; near < this->mesh.n_cells(); near += 1 + this->random.below(12)) {
         const auto again = this->locator.find(x, near);
         EXPECT_EQ(again.cell, at.cell);
         EXPECT_EQ(again.xi, at.xi);

@@ -37,7 +37,7 @@ class VtuReader {
     const std::size_t at = data_ + std::stoul(attribute("Name=\"" + name + "\"", "offset"));
     const std::string raw = unpack(bytes_.data() + at);
     std::vector<T> values(raw.size() / sizeof(T));
-    std::memcpy(values.data(), raw.data(), raw.size());
+    if (!raw.empty()) std::memcpy(values.data(), raw.data(), raw.size());
     return values;
   }
 
@@ -47,7 +47,7 @@ class VtuReader {
     std::memcpy(head, from, sizeof head);
     const auto [n_blocks, size, last_size] = head;
     std::vector<std::uint64_t> packed(n_blocks);
-    std::memcpy(packed.data(), from + sizeof head, n_blocks * 8);
+    if (n_blocks > 0) std::memcpy(packed.data(), from + sizeof head, n_blocks * 8);
     const char* block = from + sizeof head + n_blocks * 8;
     std::string raw;
     for (std::uint64_t b = 0; b < n_blocks; ++b) {

@@ -23,8 +23,9 @@ void constrain_residual(const ConstraintMask& mask, int n_owned, std::span<doubl
 
 /// Removes the rows and columns of prescribed unknowns but for the diagonal, which keeps its size: an
 /// identity of the scale of its neighbours leaves multigrid and norms undisturbed.
+/// Without `keep_diagonal` that goes too: for a matrix that is added to one that has it.
 template <int B>
-void constrain_matrix(const ConstraintMask& mask, BlockCsr<B>& K) {
+void constrain_matrix(const ConstraintMask& mask, BlockCsr<B>& K, bool keep_diagonal = true) {
   for (int row = 0; row < K.n_rows(); ++row)
     for (int k = K.row_ptr()[row]; k < K.row_ptr()[row + 1]; ++k) {
       const int col = K.cols()[k];
@@ -32,7 +33,7 @@ void constrain_matrix(const ConstraintMask& mask, BlockCsr<B>& K) {
       double* block = K.at(k);
       for (int i = 0; i < B; ++i)
         for (int j = 0; j < B; ++j) {
-          const bool diagonal = row == col && i == j;
+          const bool diagonal = keep_diagonal && row == col && i == j;
           if (!diagonal && ((mask[row] >> i & 1) || (mask[col] >> j & 1))) block[i * B + j] = 0.0;
         }
     }

@@ -2,6 +2,7 @@
 /// \file
 /// Gauss-Legendre rules on [-1,1], their products on [-1,1]^dim, and collapsed products on simplices.
 
+#include "ifsi/element/element.hpp"
 #include "ifsi/quadrature/rule.hpp"
 
 namespace ifsi::detail {
@@ -34,18 +35,12 @@ constexpr Rule<1, n> gauss_legendre() {
   }
 }
 
-constexpr int power_of(int base, int exponent) {
-  int r = 1;
-  for (int i = 0; i < exponent; ++i) r *= base;
-  return r;
-}
-
 /// Product of the n-point rule in each direction of [-1,1]^dim; the first coordinate runs fastest.
 template <int dim, int n>
-constexpr Rule<dim, power_of(n, dim)> tensor_rule() {
+constexpr Rule<dim, power(n, dim)> tensor_rule() {
   constexpr Rule<1, n> line = gauss_legendre<n>();
-  Rule<dim, power_of(n, dim)> r{};
-  for (int q = 0; q < power_of(n, dim); ++q) {
+  Rule<dim, power(n, dim)> r{};
+  for (int q = 0; q < power(n, dim); ++q) {
     r.weights[q] = 1.0;
     for (int i = 0, rest = q; i < dim; ++i, rest /= n) {
       r.points[q][i] = line.points[rest % n][0];
@@ -59,9 +54,9 @@ constexpr Rule<dim, power_of(n, dim)> tensor_rule() {
 /// [-1,1]^dim. Its Jacobian costs dim - 1 degrees of exactness: 2n - dim remain. Inside, positive, but not
 /// symmetric.
 template <int dim, int n>
-constexpr Rule<dim, power_of(n, dim)> collapsed_rule() {
-  Rule<dim, power_of(n, dim)> r = tensor_rule<dim, n>();
-  for (int q = 0; q < power_of(n, dim); ++q) {
+constexpr Rule<dim, power(n, dim)> collapsed_rule() {
+  Rule<dim, power(n, dim)> r = tensor_rule<dim, n>();
+  for (int q = 0; q < power(n, dim); ++q) {
     double rest = 1.0;
     for (int i = 0; i < dim; ++i) {
       r.weights[q] *= 0.5 * rest;

@@ -158,23 +158,30 @@ class FlowProblem {
     state_.update_rate();
   }
 
- private:
-  /// dt = 0 with `steady` asks for the steady equations themselves.
-  NewtonReport step(const GeneralizedAlpha& scheme, double dt, bool steady) {
-    const double dt_rate = dt > 0.0 ? dt : 1.0;
+ protected:
+  /// Prepares the unknowns and coefficients of a step to time() + dt. dt = 0 with `steady` asks for the
+  /// steady equations themselves.
+  void open_step(const GeneralizedAlpha& scheme, double dt, bool steady, bool smooth) {
     fluid_.c_inertia = dt > 0.0 ? scheme.c_inertia(dt) : 0.0;
     const double tau_dt = options_.tau_dt > 0.0 ? options_.tau_dt : dt;
     fluid_.tau_rate2 = steady ? 0.0 : 4.0 / (tau_dt * tau_dt);
     inertia_ = dt > 0.0;
     if (fluid_.c_inertia != c_inertia_of_setup_) solver_.invalidate();
     c_inertia_of_setup_ = fluid_.c_inertia;
-    state_.begin_step(scheme, dt_rate, !steady && (smooth_start_ || state_.n_steps() > 1));
+    state_.begin_step(scheme, dt > 0.0 ? dt : 1.0, smooth);
     system_.for_each_prescribed(state_.time() + (steady ? 0.0 : dt),
                                 [&](int node, int i, double value) { state_.set_velocity(node, i, value); });
     state_.update_rate();
-    NewtonReport report = newton(*this, options_.newton, watch_);
-    if (report.converged) state_.end_step();
-    if (report.converged && system_.enclosed()) remove_mean_pressure();
+  }
+  void close_step() {
+    state_.end_step();
+    if (system_.enclosed()) remove_mean_pressure();
+  }
+
+  NewtonReport step(const GeneralizedAlpha& scheme, double dt, bool steady) {
+    open_step(scheme, dt, steady, !steady && (smooth_start_ || state_.n_steps() > 1));
+    const NewtonReport report = newton(*this, options_.newton, watch_);
+    if (report.converged) close_step();
     return report;
   }
 
@@ -188,8 +195,8 @@ class FlowProblem {
     return {.u = state_.u,
             .u_dot = inertia_ ? state_.rate : zero_,
             .f = {},
-            .s = {},
-            .k_p = {},
+            .s = s_,
+            .k_p = k_p_,
             .gravity = options_.gravity};
   }
 
@@ -223,6 +230,7 @@ class FlowProblem {
   FluidParameters<typename Model::Rheology> fluid_;
   BlockCsr<B> K_;
   std::vector<double> R_, reaction_, update_, zero_;
+  std::vector<double> s_, k_p_;  ///< stabilisation scales near immersed solids; empty without
   std::vector<double> volumes_;  ///< of owned nodes, in an enclosed flow
   LinearSolver<B> solver_;
   std::function<void(const NewtonReport&)> watch_;

@@ -68,6 +68,12 @@ class FlowState {
       if (i % B < dim) rate[i] = old_rate_[i] + scheme_.alpha_m * (new_rate(i) - old_rate_[i]);
   }
 
+  /// Velocity at n + 1 as the present iterate has it, interleaved as u.
+  void new_velocities(std::vector<double>& v) const {
+    v.resize(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) v[i] = i % B < dim ? new_velocity(i) : 0.0;
+  }
+
   /// Accepts the step: level n + 1 becomes level n.
   void end_step() {
     for (std::size_t i = 0; i < u.size(); ++i)

@@ -55,11 +55,14 @@ class SolidSystem {
     std::fill(R_.begin(), R_.end(), 0.0);
     std::fill(scale_.begin(), scale_.end(), 0.0);
     K_.set_zero();
-    return body_.residual_and_robust_tangent(
-        state, u_before, slopes, cells_, [&](int c, std::span<const double> R, std::span<const double> K) {
-          add_residual(body_.mesh().cells[c], R);
-          for (int k = 0; k < n * n; ++k) add_block(blocks_[c][k], &K[k * dim * dim]);
-        });
+    const auto sink = [&](int c, std::span<const double> R, std::span<const double> K) {
+      add_residual(body_.mesh().cells[c], R);
+      for (int k = 0; k < n * n; ++k) add_block(blocks_[c][k], &K[k * dim * dim]);
+    };
+    if constexpr (Body::Formulation::mean_dilatation)
+      return body_.residual_and_robust_tangent(state, u_before, slopes, cells_, sink);
+    else
+      return body_.residual_and_tangent(state, slopes, cells_, sink);
   }
   /// Adds the residual of a face or cell with these nodes.
   void add_residual(std::span<const int> nodes, std::span<const double> R) {
@@ -130,8 +133,8 @@ SolidNewtonReport solid_newton(System& system, std::vector<double>& u, const Sol
   for (;;) {
     const DeformationReport deformation = evaluate(u, u_before);
     if (deformation.inverted()) {
-      report.diagnosis = "cell " + std::to_string(deformation.cell) + " turns inside out (det F = " +
-                         std::to_string(deformation.min_det_F) + ")";
+      report.diagnosis = "cell " + std::to_string(deformation.cell) +
+                         " turns inside out (det F = " + std::to_string(deformation.min_det_F) + ")";
       if (du.empty() || ++halvings > options.max_halvings) return report;
       for (std::size_t i = 0; i < u.size(); ++i) u[i] -= (du[i] *= 0.5);
       continue;
@@ -148,7 +151,6 @@ SolidNewtonReport solid_newton(System& system, std::vector<double>& u, const Sol
       report.diagnosis.clear();
       return report;
     }
-    if(getenv("TRACE"))std::printf("   it %d r=%.3e minF %.3g\n",report.iterations,report.residual,deformation.min_det_F);
     report.diagnosis = "the residual stays at " + std::to_string(report.residual) +
                        " of the forces, worst at node " + std::to_string(worst_node);
     if (report.iterations == options.max_iterations || !std::isfinite(report.residual)) return report;

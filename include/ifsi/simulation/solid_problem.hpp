@@ -52,11 +52,10 @@ class SolidProblem {
   [[nodiscard]] int node_at(const Vec<double, dim>& X) const {
     const auto distance = [&](const Vec<double, dim>& p) { return dot(p - X, p - X); };
     const auto& points = body_.mesh().points;
-    return static_cast<int>(std::min_element(points.begin(), points.end(),
-                                             [&](const auto& p, const auto& q) {
-                                               return distance(p) < distance(q);
-                                             }) -
-                            points.begin());
+    return static_cast<int>(
+        std::min_element(points.begin(), points.end(),
+                         [&](const auto& p, const auto& q) { return distance(p) < distance(q); }) -
+        points.begin());
   }
 
   /// Prescribes component `i` of the displacement (reached in proportion to the load).
@@ -120,12 +119,13 @@ class SolidProblem {
       }
       return evaluate({u_f, v_f, a_m}, u_f_before, slopes, load);
     };
-    const auto report = solid_newton(system_, u, newton, evaluate_levels,
-                                     [&](int dof) { return system_.prescribed(dof); });
+    const auto report =
+        solid_newton(system_, u, newton, evaluate_levels, [&](int dof) { return system_.prescribed(dof); });
     n_newton_ += report.iterations;
     if (!report.converged)
-      throw Error(ExitCode::nonlinear, "solid '" + body_.name() + "', step from t = " + std::to_string(time_) +
-                                           " by " + std::to_string(dt) + ": " + report.diagnosis);
+      throw Error(ExitCode::nonlinear, "solid '" + body_.name() +
+                                           "', step from t = " + std::to_string(time_) + " by " +
+                                           std::to_string(dt) + ": " + report.diagnosis);
     u_ = std::move(u);
     v_ = std::move(v);
     a_ = std::move(a);
@@ -159,9 +159,9 @@ class SolidProblem {
     const auto report = system_.assemble(state, u_before, slopes);
     body_.parameters.gravity = gravity_;
     for (const auto& t : tractions_)
-      body_.add_traction(
-          load * t.value, t.faces,
-          [&](std::span<const int> nodes, std::span<const double> R) { system_.add_residual(nodes, R); });
+      body_.add_traction(load * t.value, t.faces, [&](std::span<const int> nodes, std::span<const double> R) {
+        system_.add_residual(nodes, R);
+      });
     for (const auto& p : pressures_)
       body_.add_pressure(
           load * p.value, state.u, slopes, p.faces,

@@ -49,13 +49,6 @@ struct Displacement {
     [[nodiscard]] T energy(int q) const { return law_.psi(cell_.F[q], cell_.X[q]); }
     [[nodiscard]] Mat<T, n> first_piola(int q) const { return law_.first_piola(cell_.F[q], cell_.X[q]); }
     [[nodiscard]] Tangent<T, n> tangent(int q) const { return law_.tangent(cell_.F[q], cell_.X[q]); }
-    /// Linear change of the stresses with the deformation gradients.
-    [[nodiscard]] std::array<Mat<T, n>, n_points> stress_increments(
-        const std::array<Mat<T, n>, n_points>& dF) const {
-      std::array<Mat<T, n>, n_points> dP;
-      for (int q = 0; q < n_points; ++q) dP[q] = contract(tangent(q), dF[q]);
-      return dP;
-    }
     /// Cauchy stress in all three directions.
     [[nodiscard]] Mat<T, 3> cauchy(int q) const { return detail::cauchy(law_, cell_.F[q], cell_.X[q]); }
 
@@ -164,7 +157,7 @@ struct MeanDilatation {
         at(q).first(psi_F_[q], psi_theta_);
         total += psi_theta_ * cell.dV[q];
       }
-      psi_theta_ = total / V;
+      psi_theta_ = tangent_pressure_ = total / V;
       inverse_V_ = T(1.0) / V;
     }
 
@@ -176,26 +169,24 @@ struct MeanDilatation {
     [[nodiscard]] DilatedTangent<T, n> tangent(int q) const {
       DilatedTangent<T, n> psi = at(q).second();
       const Mat<T, n> G = transpose(inverse(cell_.F[q]));
-      const T pJ = psi_theta_ * det(cell_.F[q]);
+      const T pJ = tangent_pressure_ * det(cell_.F[q]);
       psi.FF += tangent_from<T, n>([&](int i, int J, int k, int L) {
         return T(pJ * (G(i, J) * G(k, L) - G(i, L) * G(k, J)));
       });
       return psi;
     }
-    /// Linear change of the stresses with the deformation gradients of all points.
-    [[nodiscard]] std::array<Mat<T, n>, n_points> stress_increments(
-        const std::array<Mat<T, n>, n_points>& dF) const {
-      T d_theta = T(0.0), d_psi_theta = T(0.0);
+    /// Pressure, the mean of psi_theta, after the linearised change dF of all deformation gradients.
+    [[nodiscard]] T predicted_pressure(const std::array<Mat<T, n>, n_points>& dF) const {
+      T d_theta = T(0.0), sum = T(0.0);
       for (int q = 0; q < n_points; ++q) d_theta += inner(dtheta(q), dF[q]);
-      std::array<Mat<T, n>, n_points> dP;
       for (int q = 0; q < n_points; ++q) {
-        const DilatedTangent<T, n> psi = tangent(q);
-        dP[q] = contract(psi.FF, dF[q]) + d_theta * psi.F_theta;
-        d_psi_theta += cell_.dV[q] * (inner(psi.F_theta, dF[q]) + psi.theta_theta * d_theta);
+        const DilatedTangent<T, n> psi = at(q).second();
+        sum += cell_.dV[q] * (inner(psi.F_theta, dF[q]) + psi.theta_theta * d_theta);
       }
-      for (int q = 0; q < n_points; ++q) dP[q] += T(inverse_V_ * d_psi_theta) * cofactor(q);
-      return dP;
+      return psi_theta_ + inverse_V_ * sum;
     }
+    /// Pressure to be used by tangent() instead of the present one.
+    void set_tangent_pressure(const T& p) { tangent_pressure_ = p; }
     /// Cauchy stress in all three directions, the law's at the mean dilatation.
     [[nodiscard]] Mat<T, 3> cauchy(int q) const { return at(q).cauchy(); }
 
@@ -213,7 +204,7 @@ struct MeanDilatation {
 
     const Law& law_;
     const Cell& cell_;
-    T theta_, psi_theta_, inverse_V_;
+    T theta_, psi_theta_, tangent_pressure_, inverse_V_;
     std::array<Mat<T, n>, n_points> psi_F_;
   };
 };

@@ -132,19 +132,21 @@ class SolidBody {
     });
   }
 
-  /// The same with a tangent that makes Newton's method robust over large steps: see
-  /// SolidCell::extrapolated_stresses. `u_before` is the displacement of the iteration before this one.
+  /// The same with a tangent that makes Newton's method robust over large steps of nearly incompressible
+  /// bodies: see SolidCell::predicted_pressure. `u_before` is the displacement of the iteration before.
   template <class Sink>
   DeformationReport residual_and_robust_tangent(const SolidState& state, std::span<const double> u_before,
                                                 const StateSlopes& slopes, std::span<const int> cells,
-                                                Sink&& sink) const {
+                                                Sink&& sink) const
+    requires(Formulation::mean_dilatation)
+  {
     Unpacked out;
     return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
       const SolidCellData<Element, T> before = gather(batch, {u_before}), now = gather(batch, state);
       std::array<Vec<T, dim>, n> du;
       for (int a = 0; a < n; ++a) du[a] = now.u[a] - before.u[a];
-      const auto stresses = Kernel(before, law_).extrapolated_stresses(du);
-      kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent(), &stresses);
+      const T pressure = Kernel(before, law_).predicted_pressure(du);
+      kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent(), &pressure);
       out.send(batch, sink);
     });
   }

@@ -43,10 +43,9 @@ class SolidCell {
   using Table = BasisTable<Element, Rule>;
   using Data = SolidCellData<Element, T>;
   using Response = typename Formulation::template Response<Law, T, n, dim, n_points>;
-
- public:
   using Stresses = std::array<Mat<T, n>, n_points>;
 
+ public:
   /// Kinematics at all points. \pre the law outlives the cell
   SolidCell(const Data& cell, const Law& law) : cell_(cell), law_(law) {
     using std::min;
@@ -65,39 +64,35 @@ class SolidCell {
   }
 
   /// Also tangent(a, b, K_ab): the dim x dim block of each node pair.
-  /// With `extrapolated` (see extrapolated_stresses) its stresses take the place of the present ones in the
-  /// geometric part of the tangent.
+  /// Mean dilatation only: a pressure to take the place of the present one in the geometric part of the
+  /// tangent, see predicted_pressure.
   template <class ResidualSink, class TangentSink>
   void residual_and_tangent(const SolidParameters<dim>& solid, const StateSlopes& slopes,
                             ResidualSink&& residual, TangentSink&& tangent,
-                            const Stresses* extrapolated = nullptr) const {
-    const Response response(law_, deformation_);
+                            const T* pressure = nullptr) const {
+    Response response(law_, deformation_);
     residual_of_nodes(stresses(solid, response), solid, residual);
-    Stiffness stiffness(*this, solid, slopes, response);
-    if (extrapolated != nullptr) stiffness.replace_geometric(*extrapolated, slopes.u, response);
+    if constexpr (mean_dilatation)
+      if (pressure != nullptr) response.set_tangent_pressure(*pressure);
+    const Stiffness stiffness(*this, solid, slopes, response);
     for (int b = 0; b < n_nodes; ++b) {
       const auto trial = stiffness.trial(b);
       for (int a = 0; a < n_nodes; ++a) tangent(a, b, stiffness.block(a, b, trial));
     }
   }
 
-  /// Elastic second Piola-Kirchhoff stresses that the linearisation here predicts for the displacement u + du.
+  /// Pressure (positive in tension) that the linearisation here predicts for the displacement u + du.
   ///
-  /// A Newton step that rotates stiff material overshoots: the strain at u + du is quadratic in the rotation,
-  /// and the stress it causes spoils the next tangent. With these stresses in the geometric part of that
-  /// tangent (residual and limit unchanged) the iteration is that of a mixed method with the stress as its
-  /// own unknown, which converges over far larger load steps (Magisano, Leonetti & Garcea 2017).
-  [[nodiscard]] Stresses extrapolated_stresses(const std::array<Vec<T, dim>, n_nodes>& du) const {
-    const Response response(law_, deformation_);
+  /// A Newton step that rotates nearly incompressible material changes its volume by the square of the
+  /// rotation; the pressure of that spoils the next tangent. With the pressure predicted here in the geometric
+  /// part of that tangent (residual and solution are the same) the iteration is that of the mixed method with
+  /// the pressure as an unknown of its own, and converges over far larger steps.
+  [[nodiscard]] T predicted_pressure(const std::array<Vec<T, dim>, n_nodes>& du) const
+    requires(mean_dilatation)
+  {
     std::array<Mat<T, n>, n_points> dF;
     for (int q = 0; q < n_points; ++q) dF[q] = gradient(q, du);
-    const Stresses dP = response.stress_increments(dF);
-    Stresses S;
-    for (int q = 0; q < n_points; ++q) {
-      const Mat<T, n> F_inv = inverse(deformation_.F[q]), P = response.first_piola(q);
-      S[q] = F_inv * (P + dP[q] - dF[q] * (F_inv * P));
-    }
-    return S;
+    return Response(law_, deformation_).predicted_pressure(dF);
   }
 
   /// Volume, energies and momentum of the solid itself (density rho_s).
@@ -236,17 +231,6 @@ class SolidCell<Element, Law, Formulation, Coordinates, Rule, T>::Stiffness {
       }
       mass_[q] = slopes.a * cell.excess_mass(q, solid);
       if (immersed_) set_fluid_mass_slope(q, solid, slopes.u);
-    }
-  }
-
-  void replace_geometric(const Stresses& S, double slope, const Response& response) {
-    for (int q = 0; q < n_points; ++q) {
-      const Mat<T, n> F_inv = inverse(cell_.deformation_.F[q]);
-      const Mat<T, n> dS =
-          T(slope * cell_.deformation_.dV[q]) * (S[q] - F_inv * response.first_piola(q));
-      for (int s = 0; s < n_slots; ++s)
-        for (int t = 0; t < n_slots; ++t)
-          if (row(s) == row(t)) A_[q](s, t) += dS(column(s), column(t));
     }
   }
 

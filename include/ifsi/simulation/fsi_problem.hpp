@@ -1,0 +1,212 @@
+#pragma once
+/// \file
+/// Immersed fluid-structure interaction: solids that move with the fluid at their nodes, one system of the
+/// fluid's size.
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ifsi/coupling/coupling_matrix.hpp"
+#include "ifsi/coupling/cut_cells.hpp"
+#include "ifsi/coupling/interpolation.hpp"
+#include "ifsi/coupling/mesh_ratio.hpp"
+#include "ifsi/linalg/patched_solver.hpp"
+#include "ifsi/simulation/flow_problem.hpp"
+#include "ifsi/simulation/immersed_solids.hpp"
+
+namespace ifsi {
+
+struct FsiOptions {
+  double rho_inf_solid = 0.0;  ///< beta and gamma of the solid's kinematics
+  double k_p = 0.01;           ///< scale of the PSPG term in cells that hold solid nodes (eq. 13)
+  StabilisationScale s;        ///< tau_M scale around the solid (eq. 4)
+  int patch_layers = 2;        ///< layers of fluid nodes around the cut cells that are solved for directly
+  PatchedSolverOptions linear;
+
+  void declare(Parameters& params) {
+    params.add("solid.rho_inf", rho_inf_solid, "-", "rho_inf of the solid's kinematics", {0.0, 1.0});
+    params.add("coupling.k_p", k_p, "-", "scale of PSPG in cells that hold solid nodes", {0.0, 1.0});
+    params.add("coupling.s_max", s.s_max, "-", "scale s of tau_M around the solid", {1.0, 1e9});
+    params.add("coupling.s_rings", s.rings, "-", "layers of nodes beyond the cut cells with s = s_max",
+               {0, 100});
+    params.add("coupling.patch_layers", patch_layers, "-", "layers around the cut cells solved for directly",
+               {0, 20});
+    params.add_choice("coupling.base", linear.base, {"auto", "direct", "gmres"},
+                      "preconditioner of the fluid alone");
+  }
+};
+
+/// A flow with immersed bodies of one kind. C is built once per step at the predicted positions and used both
+/// to interpolate and to spread, so that power is conserved; nodal kinematics are recomputed from the fluid
+/// velocity in every iteration, so that the constraint holds to round-off. Mesh and problem are not copied:
+/// keep both in place.
+template <class Element, class Body, class Model = FluidModel<>>
+class FsiProblem : public FlowProblem<Element, Model> {
+  using Flow = FlowProblem<Element, Model>;
+
+ public:
+  using Flow::B, Flow::dim, Flow::mesh;
+  using Point = typename Flow::Point;
+
+  /// \throws Error (configuration) when a body lies partly outside of the mesh without `may_protrude`.
+  FsiProblem(const Mesh<Element>& mesh, FlowBoundary<Flow::dim> boundary, double rho,
+             typename Model::Rheology rheology, std::vector<Body> bodies, FlowOptions flow,
+             FsiOptions options, bool may_protrude = false)
+      : Flow(mesh, std::move(boundary), rho, rheology, flow),
+        fsi_(std::move(options)),
+        solids_(std::move(bodies)),
+        C_(mesh),
+        cut_(mesh),
+        K_s_(C_, solids_.cells()),
+        patched_(patched_options(),
+                 [this] { return this->system_.schur_parts(this->fields(), this->fluid_); }) {
+    C_.locate(solids_.positions());
+    if (!may_protrude && !C_.lost().empty()) report_outside();
+  }
+
+  [[nodiscard]] const ImmersedSolids<Body>& solids() const { return solids_; }
+  [[nodiscard]] const Interpolation<Element>& interpolation() const { return C_; }
+  [[nodiscard]] const PatchedSolver<Flow::B>& linear_solver() const { return patched_; }
+  /// The largest ratio of solid to fluid node spacing in the present configuration.
+  [[nodiscard]] MeshRatio<Flow::dim> ratio() const {
+    MeshRatio<Flow::dim> worst;
+    for (std::size_t b = 0; b < solids_.bodies().size(); ++b) {
+      const auto r =
+          mesh_ratio<typename Body::Element>(C_, solids_.bodies()[b].mesh().cells, solids_.first_node(b));
+      if (r.ratio > worst.ratio) worst = r;
+    }
+    return worst;
+  }
+  /// Smallest det F of the last assembly, over all ranks.
+  [[nodiscard]] double min_det_F() const { return min_det_F_; }
+
+  /// One step; when the report says it did not converge nothing has changed.
+  NewtonReport step(double dt) {
+    const auto scheme = GeneralizedAlpha::from_rho_inf(this->options_.rho_inf);
+    const auto rates = GeneralizedAlpha::from_rho_inf(fsi_.rho_inf_solid);
+    if (scheme.c_inertia(dt) != c_of_patch_) patched_.invalidate();
+    c_of_patch_ = scheme.c_inertia(dt);
+    this->open_step(scheme, dt, false, false);
+    solids_.begin_step(scheme, rates, dt);
+    place_solids(dt);
+    NewtonReport report = newton(*this, this->options_.newton, this->watch_);
+    if (report.converged) {
+      this->close_step();
+      solids_.end_step();
+    } else if (!(min_det_F_ > 0.0)) {
+      report.failure += "; solid cell " + std::to_string(worst_cell_) +
+                        " is inverted, det F = " + std::to_string(min_det_F_);
+    }
+    return report;
+  }
+
+  void save(CheckpointWriter& checkpoint) const {
+    Flow::save(checkpoint);
+    const_cast<ImmersedSolids<Body>&>(solids_).for_each_array(
+        [&](const char* name, const std::vector<double>& x) {
+          checkpoint.array(std::string("solid.") + name, x.data(), 1,
+                           this->mesh().comm.is_root() ? all_numbers(x) : std::vector<long>{});
+        });
+  }
+  void restore(const Checkpoint& checkpoint) {
+    Flow::restore(checkpoint);
+    solids_.for_each_array([&](const char* name, std::vector<double>& x) {
+      checkpoint.array(std::string("solid.") + name, x.data(), 1, all_numbers(x));
+    });
+  }
+
+  // NonlinearSystem
+  void assemble_residual() { assemble(false); }
+  void assemble_tangent() { assemble(true); }
+  BlockNorms relative_residual() {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (!(min_det_F_ > 0.0)) return {nan, nan};
+    const BlockNorms r = block_norms<Flow::B>(mesh().nodes, this->R_);
+    const BlockNorms fluid = absolute_product_norms<Flow::B>(this->K_, this->state_.u);
+    const auto ratio = [](double a, double b) { return a == 0.0 ? 0.0 : a / std::max(b, 1e-300); };
+    return {ratio(r.momentum, fluid.momentum + spread_norm_), ratio(r.mass, fluid.mass)};
+  }
+  SolverReport solve(BlockNorms target) {
+    for (std::size_t i = 0; i < this->R_.size(); ++i) this->update_[i] = 0.0, this->R_[i] = -this->R_[i];
+    return patched_.solve(this->K_, K_s_constrained_, this->R_, this->update_, SolveTarget{target, {}});
+  }
+
+ private:
+  [[nodiscard]] PatchedSolverOptions patched_options() const {
+    PatchedSolverOptions o = fsi_.linear;
+    o.enclosed = this->system_.enclosed();
+    return o;
+  }
+
+  /// C, cut cells, s-field and the patch for the positions the solids are expected at.
+  void place_solids(double dt) {
+    C_.locate(solids_.predicted(dt));
+    cut_.update(C_);
+    this->k_p_.assign(mesh().n_cells(), 1.0);
+    for (int c : cut_.cells()) this->k_p_[c] = fsi_.k_p;
+    if (fsi_.s.s_max > 1.0) this->s_ = cut_.stabilisation(fsi_.s);
+    if (!K_s_.update()) return;
+    K_s_constrained_ = BlockCsr<Flow::B>(K_s_.matrix().shared_pattern());
+    mask_s_.assign(K_s_constrained_.layout().n_local(), 0);
+    std::copy_n(this->system_.mask().begin(), mesh().n_owned_nodes(), mask_s_.begin());
+    K_s_constrained_.layout().update_ghosts(mask_s_.data());
+    std::vector<char> in_patch;
+    for (int layer : cut_.layers(fsi_.patch_layers)) in_patch.push_back(layer <= fsi_.patch_layers);
+    patched_.set_patch(this->K_, K_s_constrained_, in_patch);
+  }
+
+  void assemble(bool tangent) {
+    Flow::assemble(tangent ? &this->K_ : nullptr);
+    if (tangent) constrain_matrix<Flow::B>(this->system_.mask(), this->K_);
+    this->state_.new_velocities(new_v_);
+    solids_.set_velocity(C_.velocities(new_v_.data(), Flow::B));
+    R_s_.assign(solids_.n_nodes(), Point::zero());
+    if (tangent) K_s_.set_zero();
+    const DeformationReport report =
+        solids_.assemble(K_s_.relevant_cells(), R_s_, tangent,
+                         [&](int i, const Mat<double, Flow::dim>* K) { K_s_.add(i, K); });
+    min_det_F_ = mesh().comm.min(report.min_det_F == report.min_det_F ? report.min_det_F : -1.0);
+    worst_cell_ = report.cell;
+    spread_.assign(this->R_.size(), 0.0);
+    C_.spread(R_s_, spread_.data(), Flow::B);
+    constrain_residual<Flow::B>(this->system_.mask(), mesh().n_owned_nodes(), spread_);
+    for (std::size_t i = 0; i < spread_.size(); ++i) this->R_[i] += spread_[i];
+    spread_norm_ = block_norms<Flow::B>(mesh().nodes, spread_).momentum;
+    if (!tangent) return;
+    K_s_constrained_.values = K_s_.matrix().values;
+    constrain_matrix<Flow::B>(mask_s_, K_s_constrained_, false);
+  }
+
+  static std::vector<long> all_numbers(const std::vector<double>& x) {
+    std::vector<long> numbers(x.size());
+    std::iota(numbers.begin(), numbers.end(), 0L);
+    return numbers;
+  }
+
+  [[noreturn]] void report_outside() const {
+    const auto lost = C_.lost_points();
+    std::string at;
+    for (int i = 0; i < Flow::dim; ++i) at += " " + std::to_string(lost[0].position[i]);
+    throw Error(ExitCode::configuration, std::to_string(lost.size()) +
+                                             " solid nodes lie outside of the fluid mesh, node " +
+                                             std::to_string(lost[0].point) + " at" + at + " by " +
+                                             std::to_string(lost[0].distance) + "; expected all inside");
+  }
+
+  FsiOptions fsi_;
+  ImmersedSolids<Body> solids_;
+  Interpolation<Element> C_;
+  CutCells<Element> cut_;
+  CouplingMatrix<Element> K_s_;
+  BlockCsr<Flow::B> K_s_constrained_;
+  ConstraintMask mask_s_;  ///< of the layout of K_s
+  PatchedSolver<Flow::B> patched_;
+  std::vector<Point> R_s_;
+  std::vector<double> new_v_, spread_;
+  double min_det_F_ = 1.0, spread_norm_ = 0.0, c_of_patch_ = -1.0;
+  int worst_cell_ = -1;
+};
+
+}  // namespace ifsi

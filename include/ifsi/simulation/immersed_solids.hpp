@@ -1,0 +1,161 @@
+#pragma once
+/// \file
+/// The solids of a scene in motion: nodal kinematics, forces and tangents of all bodies together.
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "ifsi/coupling/solid_cells.hpp"
+#include "ifsi/solid/solid_body.hpp"
+#include "ifsi/time/generalized_alpha.hpp"
+
+namespace ifsi {
+
+/// Nodal displacement, velocity and acceleration of all bodies, and their levels within a step (eq. 15).
+/// Everything follows from the velocity that the fluid gives the nodes. Nodes are numbered body after body.
+template <class Body>
+class ImmersedSolids {
+ public:
+  static constexpr int dim = Body::dim;
+  using Point = Vec<double, dim>;
+
+  explicit ImmersedSolids(std::vector<Body> bodies) : bodies_(std::move(bodies)) {
+    for (const Body& body : bodies_) {
+      first_node_.push_back(static_cast<int>(X_.size()));
+      first_cell_.push_back(cells_.size());
+      cells_.append(body.mesh().cells, first_node_.back());
+      X_.insert(X_.end(), body.mesh().points.begin(), body.mesh().points.end());
+    }
+    for (auto* x : {&u_, &v_, &a_, &u_old_, &v_old_, &a_old_, &u_alpha_, &v_alpha_, &a_alpha_})
+      x->assign(X_.size() * dim, 0.0);
+  }
+
+  [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
+  [[nodiscard]] const SolidCells& cells() const { return cells_; }
+  [[nodiscard]] int n_nodes() const { return static_cast<int>(X_.size()); }
+  [[nodiscard]] int first_node(int body) const { return first_node_[body]; }
+  /// Displacement and velocity of the last completed level, dim numbers per node.
+  [[nodiscard]] std::span<const double> displacement() const { return u_old_; }
+  [[nodiscard]] std::span<const double> velocity() const { return v_old_; }
+  [[nodiscard]] Point displacement(int node) const {
+    Point u;
+    for (int i = 0; i < dim; ++i) u[i] = u_old_[node * dim + i];
+    return u;
+  }
+
+  /// Positions predicted for the end of a step: X + u + dt v + dt^2/2 a of the last level.
+  [[nodiscard]] std::vector<Point> predicted(double dt) const {
+    std::vector<Point> x = X_;
+    for (std::size_t k = 0; k < u_.size(); ++k)
+      x[k / dim][k % dim] += u_old_[k] + dt * v_old_[k] + 0.5 * dt * dt * a_old_[k];
+    return x;
+  }
+  [[nodiscard]] std::vector<Point> positions() const { return predicted(0.0); }
+
+  /// \param levels alpha_m and alpha_f of the fluid; \param rates beta and gamma of the solid.
+  void begin_step(const GeneralizedAlpha& levels, const GeneralizedAlpha& rates, double dt) {
+    levels_ = levels, rates_ = rates, dt_ = dt;
+  }
+  /// Changes of the state at its levels per change of the fluid velocity at alpha_f (eq. 16).
+  [[nodiscard]] StateSlopes slopes() const {
+    return {.u = rates_.beta * dt_ / rates_.gamma,
+            .v = 1.0,
+            .a = levels_.alpha_m / (rates_.gamma * dt_ * levels_.alpha_f)};
+  }
+
+  /// Kinematics from the nodal velocity v = C^T v_f at n + 1 (eq. 15).
+  void set_velocity(std::span<const Point> v) {
+    const double dt = dt_, beta = rates_.beta;
+    for (std::size_t k = 0; k < u_.size(); ++k) {
+      v_[k] = v[k / dim][k % dim];
+      a_[k] = rates_.rate(v_[k], v_old_[k], a_old_[k], dt);
+      u_[k] = u_old_[k] + dt * v_old_[k] + dt * dt * ((0.5 - beta) * a_old_[k] + beta * a_[k]);
+      u_alpha_[k] = u_old_[k] + levels_.alpha_f * (u_[k] - u_old_[k]);
+      v_alpha_[k] = v_old_[k] + levels_.alpha_f * (v_[k] - v_old_[k]);
+      a_alpha_[k] = a_old_[k] + levels_.alpha_m * (a_[k] - a_old_[k]);
+    }
+  }
+  void end_step() { u_old_ = u_, v_old_ = v_, a_old_ = a_; }
+
+  /// Residual (and tangent, when `matrix` takes it) of the listed cells: R is added to, `matrix(i, K)`
+  /// receives the place i in the list and the cell's blocks.
+  template <class MatrixSink>
+  DeformationReport assemble(std::span<const int> cells, std::span<Point> R, bool tangent,
+                             MatrixSink&& matrix) const {
+    DeformationReport worst;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const auto [list, offset] = cells_of(static_cast<int>(b), cells);
+      const int n = bodies_[b].n_dofs(), first = first_node_[b] * dim;
+      const auto part = [&](const std::vector<double>& x) {
+        return std::span<const double>(x).subspan(first, n);
+      };
+      const SolidState state{part(u_alpha_), part(v_alpha_), part(a_alpha_)};
+      std::size_t i = offset;
+      const auto add_residual = [&](int cell, std::span<const double> R_e) {
+        const auto nodes = cells_[first_cell_[b] + cell];
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+          for (int k = 0; k < dim; ++k) R[nodes[a]][k] += R_e[a * dim + k];
+      };
+      DeformationReport report;
+      if (tangent)
+        report = bodies_[b].residual_and_tangent(
+            state, slopes(), list, [&](int cell, std::span<const double> R_e, std::span<const double> K_e) {
+              add_residual(cell, R_e);
+              while (cells[i] != first_cell_[b] + cell) ++i;
+              matrix(static_cast<int>(i), reinterpret_cast<const Mat<double, dim>*>(K_e.data()));
+            });
+      else
+        report = bodies_[b].residual(state, list, add_residual);
+      if (report.cell >= 0) worst.merge(report.min_det_F, first_cell_[b] + report.cell);
+    }
+    return worst;
+  }
+
+  /// Volumes, energies and the worst deformation of all bodies at the last completed level.
+  [[nodiscard]] SolidTotals<dim> totals() const {
+    SolidTotals<dim> sum;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const int n = bodies_[b].n_dofs(), first = first_node_[b] * dim;
+      const auto part = [&](const std::vector<double>& x) {
+        return std::span<const double>(x).subspan(first, n);
+      };
+      const auto t = bodies_[b].totals({part(u_old_), part(v_old_), part(a_old_)}, bodies_[b].all_cells());
+      sum.volume += t.volume, sum.reference_volume += t.reference_volume;
+      sum.elastic_energy += t.elastic_energy, sum.kinetic_energy += t.kinetic_energy;
+      sum.momentum += t.momentum;
+      sum.deformation.merge(t.deformation.min_det_F, first_cell_[b] + t.deformation.cell);
+    }
+    return sum;
+  }
+
+  /// Calls visit(name, array) for what a restart needs.
+  template <class Visit>
+  void for_each_array(Visit&& visit) {
+    visit("displacement", u_old_), visit("velocity", v_old_), visit("acceleration", a_old_);
+  }
+
+ private:
+  /// The part of a sorted list of cells that belongs to a body, in the body's numbers, and where it begins.
+  [[nodiscard]] std::pair<std::vector<int>, std::size_t> cells_of(int body,
+                                                                  std::span<const int> cells) const {
+    const int first = first_cell_[body], end = first + bodies_[body].n_cells();
+    const auto from = std::lower_bound(cells.begin(), cells.end(), first);
+    std::vector<int> list(from, std::lower_bound(from, cells.end(), end));
+    for (int& c : list) c -= first;
+    return {std::move(list), static_cast<std::size_t>(from - cells.begin())};
+  }
+
+  std::vector<Body> bodies_;
+  std::vector<int> first_node_, first_cell_;
+  SolidCells cells_;
+  std::vector<Point> X_;
+  GeneralizedAlpha levels_, rates_;
+  double dt_ = 1.0;
+  std::vector<double> u_, v_, a_;                    ///< level n + 1
+  std::vector<double> u_old_, v_old_, a_old_;        ///< level n
+  std::vector<double> u_alpha_, v_alpha_, a_alpha_;  ///< where the equations hold
+};
+
+}  // namespace ifsi
