@@ -64,11 +64,11 @@ class Tree:
         return [(line_of(text, m.start()), m.group(1)) for m in INCLUDE.finditer(text)]
 
     def layer(self, name):
-        """The layer of a file by its folder, of one directly in src/ by the header it includes first; None if free."""
+        """The layer of a file by its folder, of other files in src/ by the header they include first; None if free."""
         parts = name.split("/")
         if name.startswith("include/ifsi/"):
             return parts[2]
-        if name.startswith("src/") and len(parts) > 2:
+        if name.startswith("src/") and parts[1] in LAYERS:
             return parts[1]
         if name.startswith("src/"):
             first = [path for _, path in self.includes(name) if path.startswith("ifsi/")]

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
+#include <tuple>
 #include <vector>
 
 #include "ifsi/element/elements.hpp"

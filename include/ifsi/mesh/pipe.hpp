@@ -2,9 +2,11 @@
 /// \file
 /// Discs and straight pipes of circular section: a rounded square of cells in the middle, rings around it.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <type_traits>
 
 #include "ifsi/mesh/axis.hpp"
 #include "ifsi/mesh/extrude.hpp"

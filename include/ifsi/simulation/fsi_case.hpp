@@ -9,6 +9,7 @@
 #include "ifsi/material/materials.hpp"
 #include "ifsi/simulation/flow_case.hpp"
 #include "ifsi/simulation/fsi_problem.hpp"
+#include "ifsi/simulation/probe.hpp"
 #include "ifsi/simulation/profiles.hpp"
 #include "ifsi/simulation/signal.hpp"
 
@@ -92,6 +93,27 @@ template <class Body>
     ++n;
   }
   return n == 0 ? 0.0 : std::sqrt(sum / n);
+}
+
+/// Largest difference between the last cycle of a signal and the one before, over the signal's range.
+[[nodiscard]] inline double cycle_difference(const Signal& signal, double t_end, double period) {
+  double difference = 0.0;
+  for (double t = t_end - period; t <= t_end; t += period / 200.0)
+    difference = std::max(difference, std::abs(signal.at(t) - signal.at(t - period)));
+  return difference / (signal.max(t_end - 2.0 * period).value - signal.min(t_end - 2.0 * period).value);
+}
+
+/// Largest nodal speed, over all ranks.
+template <class Problem>
+[[nodiscard]] double largest_speed(const Problem& problem) {
+  double largest = 0.0;
+  const auto v = problem.state().velocity();
+  for (int node = 0; node < problem.mesh().n_owned_nodes(); ++node) {
+    double square = 0.0;
+    for (int i = 0; i < Problem::dim; ++i) square += v[node * Problem::B + i] * v[node * Problem::B + i];
+    largest = std::max(largest, square);
+  }
+  return std::sqrt(problem.mesh().comm.max(largest));
 }
 
 /// Largest values over a run that every immersed case reports.
