@@ -1,5 +1,6 @@
 #include "ifsi/linalg/saddle_preconditioner.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 #include <vector>
@@ -55,7 +56,7 @@ class SaddlePreconditioner<B>::Impl {
     if (std::holds_alternative<BlockIlu<dim>>(velocity_)) text += "ILU(0)";
     if (std::holds_alternative<BlockGaussSeidel<dim>>(velocity_)) text += "Gauss-Seidel";
     return text + " (viscous number " + std::to_string(viscous_number_) +
-           "); pressure: " + schur_.description();
+           "); pressure: " + (has_inertia_ ? schur_.description() : "mass matrix");
   }
 
   /// Measured on Q1 meshes: AMG on the velocity block costs about as much to build as twelve iterations.
@@ -83,14 +84,18 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   void update_schur(const BlockCsr<B>& K, const SchurParts& parts) {
+    inverse_mass_.resize(parts.mass.size());
+    for (std::size_t i = 0; i < parts.mass.size(); ++i) inverse_mass_[i] = 1 / parts.mass[i];
+    const auto& laplacian = parts.laplacian.values;
+    has_inertia_ = pattern_->layout.communicator().any(
+        std::any_of(laplacian.begin(), laplacian.end(), [](double value) { return value != 0; }));
+    if (!has_inertia_) return;
     BlockCsr<1> S = extract_diagonal_part<1>(K, dim);
     for (std::size_t k = 0; k < S.values.size(); ++k) S.values[k] += parts.laplacian.values[k];
     add_outlet_terms(K, parts, S);
     // A spring on one pressure makes S regular and changes its solution by a constant only.
     if (options_.enclosed && pattern_->layout.first_global() == 0 && S.n_rows() > 0) *S.at(S.find(0, 0)) *= 2;
     schur_.setup(S);
-    inverse_mass_.resize(parts.mass.size());
-    for (std::size_t i = 0; i < parts.mass.size(); ++i) inverse_mass_[i] = 1 / parts.mass[i];
   }
 
   /// D A^-1 G of the constant pressure is not zero where velocity is free on a boundary: (G 1)_i = -int N_i n
@@ -114,7 +119,10 @@ class SaddlePreconditioner<B>::Impl {
   void apply_schur(const double* r) {
     const int n = pattern_->n_rows();
     for (int i = 0; i < n; ++i) r_p_[i] = r[i * long{B} + dim];
-    schur_.apply(r_p_.data(), z_p_.data());
+    if (has_inertia_)
+      schur_.apply(r_p_.data(), z_p_.data());
+    else
+      std::fill(z_p_.begin(), z_p_.end(), 0.0);
     for (int i = 0; i < n; ++i) z_p_[i] += inverse_mass_[i] * r_p_[i];
     pattern_->layout.update_ghosts(z_p_.data());
   }
@@ -152,6 +160,7 @@ class SaddlePreconditioner<B>::Impl {
   std::variant<BlockIlu<dim>, BlockGaussSeidel<dim>, Amg> velocity_;
   AlignedVector<float> gradient_;  ///< G: dim numbers per block of the pattern
   Amg schur_;
+  bool has_inertia_ = true;  ///< false in steady flow: no Laplacian part
   std::vector<double> inverse_mass_;
   std::vector<double> r_p_, z_p_, wide_b_, wide_x_;
   AlignedVector<float> r_v_, z_v_;

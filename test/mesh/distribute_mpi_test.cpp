@@ -167,15 +167,15 @@ TEST(DistributeMesh, PeriodicNodesHaveOnePlace) {
     for (int d = 0; d < 2; ++d) EXPECT_EQ(std::remainder(mesh.points[p][d] - x[mesh.point_node[p]][d], 1), 0);
 }
 
-/// Neighbours in a cell have near numbers: a lexicographic order has a mean of 6.04.
+/// Nodes of a cell have near numbers: along the rows of this long box they would be 2^6 to 2^8 apart in the mean.
 TEST(DistributeMesh, NumberingIsLocal) {
-  const auto mesh = distribute(box<Quad1>({0, 0}, {8, 8}, {64, 64}), Communicator());
+  const auto mesh = distribute(box<Quad1>({0, 0}, {16, 1}, {256, 16}), Communicator());
   double spread = 0;
   for (int c = 0; c < mesh.n_owned_cells; ++c) {
     const auto [low, high] = std::minmax_element(mesh.cells[c].begin(), mesh.cells[c].end());
     spread += std::log2(1.0 + *high - *low);
   }
-  EXPECT_LT(spread / mesh.n_owned_cells, 5.5);
+  EXPECT_LT(spread / mesh.n_owned_cells, 5);
 }
 
 TEST(DistributeMesh, WrongBoundaryNameGetsHelp) {

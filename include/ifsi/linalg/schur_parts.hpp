@@ -15,7 +15,9 @@ namespace ifsi {
 /// div), both parts carry d g / a.
 struct SchurParts {
   std::vector<double> mass;  ///< per owned node: lumped pressure mass / (mu + tau_C)
-  BlockCsr<1> laplacian;  ///< int grad q . 1/(rho c [+ k_s]) grad p, same nodes as K; no boundary conditions
+  /// int grad q . 1/(rho c [+ k_s]) grad p, same nodes as K; no boundary conditions. All zero in steady flow,
+  /// where 1/(rho c) is infinite: that end of the complement is then left out.
+  BlockCsr<1> laplacian;
   /// max over the cells of max(mu, mu_s) dt / (rho h^2): how far the velocity block is from a mass matrix.
   double viscous_number = 0;
 };

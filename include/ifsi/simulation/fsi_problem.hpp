@@ -117,6 +117,18 @@ class FsiProblem : public FlowProblem<Element, Model> {
     });
   }
 
+  /// (K_f + C K_s C^T) x of the last tangent, on owned nodes. \param x n_local x B numbers.
+  [[nodiscard]] std::vector<double> tangent_times(std::vector<double> x) const {
+    std::vector<double> y(x.size(), 0.0);
+    this->K_.apply(x.data(), y.data());
+    std::vector<double> wide(static_cast<std::size_t>(K_s_constrained_.layout().n_local()) * Flow::B, 0.0),
+        z(x.size(), 0.0);
+    std::copy_n(x.begin(), mesh().n_owned_nodes() * Flow::B, wide.begin());
+    K_s_constrained_.apply(wide.data(), z.data());
+    for (std::size_t k = 0; k < z.size(); ++k) y[k] += z[k];
+    return y;
+  }
+
   // NonlinearSystem
   void assemble_residual() { assemble(false); }
   void assemble_tangent() { assemble(true); }

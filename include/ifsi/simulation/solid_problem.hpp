@@ -75,6 +75,12 @@ class SolidProblem {
     pressures_.push_back({body_.faces_on(boundary), pressure});
   }
 
+  /// Starts dynamics from this displacement and velocity (dim numbers per node).
+  void set_initial(std::vector<double> u, std::vector<double> v) {
+    u_ = std::move(u);
+    v_ = std::move(v);
+  }
+
   /// Equilibrium under the full load, reached in `n_steps` equal load steps that are halved when Newton
   /// fails. \throws Error (nonlinear) with a diagnosis below smallest_load_step.
   void solve_static(int n_steps = 1) {

@@ -1,0 +1,160 @@
+// Flows solved end to end on small meshes: exactness, orders, forces, and the same answer on any number of
+// ranks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ifsi/element/elements.hpp"
+#include "ifsi/mesh/distribute.hpp"
+#include "ifsi/mesh/generators.hpp"
+#include "ifsi/simulation/exact_flows.hpp"
+#include "ifsi/simulation/flow_problem.hpp"
+
+namespace ifsi {
+namespace {
+
+FlowOptions tight(double rho_inf = 0.5) {
+  FlowOptions options;
+  options.rho_inf = rho_inf;
+  options.newton.rtol = 1e-11;
+  return options;
+}
+
+// Poiseuille flow is quadratic in y: order-2 cells hold it exactly, stabilisation and all.
+template <class Element>
+FlowProblem<Element> poiseuille(const Mesh<Element>& mesh, const std::string& method) {
+  FlowBoundary<2> boundary;
+  boundary.velocity("left", [](const auto& x, double) { return Vec<double, 2>{x[1] * (1.0 - x[1]), 0.0}; });
+  boundary.traction("right", [](const auto& x, double) {
+    return Vec<double, 2>{0.0, 0.1 * (1.0 - 2.0 * x[1])};
+  });
+  boundary.no_slip("top"), boundary.no_slip("bottom");
+  FlowOptions options = tight();
+  options.linear.method = method;
+  FlowProblem<Element> flow(mesh, boundary, 1.0, Newtonian{0.1}, options);
+  const NewtonReport report = flow.solve_steady();
+  EXPECT_TRUE(report.converged) << report.failure;
+  return flow;
+}
+
+template <class Element>
+void expect_poiseuille(const FlowProblem<Element>& flow) {
+  const auto u = flow.solution();
+  const auto x = flow.mesh().node_coordinates();
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    EXPECT_NEAR(u[a * 3], x[a][1] * (1.0 - x[a][1]), 1e-8);
+    EXPECT_NEAR(u[a * 3 + 1], 0.0, 1e-8);
+    EXPECT_NEAR(u[a * 3 + 2], 0.2 * (2.0 - x[a][0]), 1e-8);  // dp/dx = -2 mu
+  }
+}
+
+TEST(FlowProblem, PoiseuilleIsExactOnQuadraticCells) {
+  const Communicator comm;
+  const auto quads = distribute(box<Quad2>({0.0, 0.0}, {2.0, 1.0}, {4, 3}), comm);
+  const auto triangles = distribute(box<Tri2>({0.0, 0.0}, {2.0, 1.0}, {4, 3}), comm);
+  expect_poiseuille(poiseuille(quads, "direct"));
+  expect_poiseuille(poiseuille(triangles, "direct"));
+}
+
+std::vector<double> vortex(const Mesh<Quad1>& mesh, double rho_inf, double dt, int steps) {
+  const TaylorGreen exact{0.05};
+  FlowBoundary<2> boundary;
+  for (const std::string& side : mesh.boundary_names)
+    boundary.velocity(side, [=](const auto& x, double t) { return exact.v(x, t); });
+  FlowOptions options = tight(rho_inf);
+  options.tau_dt = 0.1;
+  FlowProblem<Quad1> flow(mesh, boundary, 1.0, Newtonian{0.05}, options);
+  flow.start(
+      0.0, [&](const auto& x) { return exact.v(x, 0.0); }, [&](const auto& x) { return exact.v_dot(x, 0.0); },
+      [&](const auto& x) { return exact.p(x, 0.0); });
+  for (int k = 0; k < steps; ++k) EXPECT_TRUE(flow.step(dt).converged);
+  return flow.solution();
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b, int component,
+                          int stride = 3) {
+  double d = 0.0;
+  for (std::size_t i = component; i < a.size(); i += stride) d = std::max(d, std::abs(a[i] - b[i]));
+  return Communicator().max(d);
+}
+
+TEST(FlowProblem, SecondOrderInTimeForVelocityAndPressure) {
+  const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {1.0, 1.0}, {8, 8}), Communicator());
+  for (double rho_inf : {0.5, 0.0}) {
+    const auto a = vortex(mesh, rho_inf, 0.05, 8), b = vortex(mesh, rho_inf, 0.025, 16),
+               c = vortex(mesh, rho_inf, 0.0125, 32);
+    for (int component : {0, 2}) {
+      const double order =
+          std::log2(largest_difference(a, b, component) / largest_difference(b, c, component));
+      EXPECT_GT(order, 1.6) << "rho_inf " << rho_inf << " component " << component;
+      EXPECT_LT(order, 2.6) << "rho_inf " << rho_inf << " component " << component;
+    }
+  }
+}
+
+// The same problem on this rank alone and on all ranks.
+TEST(FlowProblem, DoesNotDependOnTheRanks) {
+  const auto global = box<Quad1>({0.0, 0.0}, {1.0, 1.0}, {12, 10});
+  const auto alone = distribute(global, Communicator(MPI_COMM_SELF)),
+             shared = distribute(global, Communicator());
+  const auto u = vortex(alone, 0.5, 0.05, 3), w = vortex(shared, 0.5, 0.05, 3);
+  std::vector<int> local(global.points.size());
+  for (int i = 0; i < alone.n_points(); ++i) local[alone.input_point[i]] = alone.point_node[i];
+  for (int i = 0; i < shared.n_points(); ++i)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(w[shared.point_node[i] * 3 + k], u[local[shared.input_point[i]] * 3 + k], 1e-8);
+}
+
+TEST(FlowProblem, DirectAndIterativeSolversAgree) {
+  const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {2.0, 1.0}, {16, 8}), Communicator());
+  const auto a = poiseuille(mesh, "direct").solution(), b = poiseuille(mesh, "gmres").solution();
+  for (int component : {0, 1, 2}) EXPECT_LT(largest_difference(a, b, component), 1e-7);
+}
+
+// Half a channel with a symmetry line is the whole channel's lower half.
+TEST(FlowProblem, SlipIsASymmetryLine) {
+  const auto mesh = distribute(box<Quad2>({0.0, 0.0}, {2.0, 0.5}, {4, 2}), Communicator());
+  FlowBoundary<2> boundary;
+  boundary.velocity("left", [](const auto& x, double) { return Vec<double, 2>{x[1] * (1.0 - x[1]), 0.0}; });
+  boundary.traction("right", [](const auto& x, double) {
+    return Vec<double, 2>{0.0, 0.1 * (1.0 - 2.0 * x[1])};
+  });
+  boundary.no_slip("bottom"), boundary.slip("top");
+  FlowProblem<Quad2> flow(mesh, boundary, 1.0, Newtonian{0.1}, tight());
+  ASSERT_TRUE(flow.solve_steady().converged);
+  expect_poiseuille(flow);
+}
+
+// A body force drives Poiseuille flow through a periodic channel, and the walls hold it all (eq. 12).
+TEST(FlowProblem, ConsistentForceBalancesTheBodyForce) {
+  const auto mesh = distribute(box<Quad2>({0.0, 0.0}, {2.0, 1.0}, {6, 4}, {{true, false}}), Communicator());
+  FlowBoundary<2> boundary;
+  boundary.no_slip("bottom"), boundary.no_slip("top");
+  FlowOptions options = tight();
+  options.gravity = {0.2, 0.0, 0.0};  // periodic in x, driven by a body force of -dp/dx
+  FlowProblem<Quad2> flow(mesh, boundary, 1.0, Newtonian{0.1}, options);
+  ASSERT_TRUE(flow.solve_steady().converged);
+  const auto u = flow.solution();
+  const auto x = flow.mesh().node_coordinates();
+  for (std::size_t a = 0; a < x.size(); ++a) EXPECT_NEAR(u[a * 3], x[a][1] * (1.0 - x[a][1]), 1e-8);
+  EXPECT_NEAR(flow.force("top")[0], 0.2, 1e-8);
+  EXPECT_NEAR(flow.force("bottom")[0], 0.2, 1e-8);
+}
+
+TEST(FlowProblem, EveryBoundaryNeedsACondition) {
+  const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {1.0, 1.0}, {4, 4}), Communicator());
+  FlowBoundary<2> boundary;
+  boundary.no_slip("left"), boundary.no_slip("right"), boundary.no_slip("top");
+  try {
+    FlowProblem<Quad1>(mesh, boundary, 1.0, Newtonian{}, {});
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::configuration);
+    EXPECT_NE(std::string(e.what()).find("bottom"), std::string::npos);
+  }
+  boundary.no_slip("botom");
+  EXPECT_THROW(FlowProblem<Quad1>(mesh, boundary, 1.0, Newtonian{}, {}), Error);
+}
+
+}  // namespace
+}  // namespace ifsi
