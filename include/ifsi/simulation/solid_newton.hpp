@@ -12,7 +12,7 @@
 namespace ifsi {
 
 struct SolidNewtonOptions {
-  double rtol = 1e-8;  ///< of the residual, relative to the nodal forces that cancel in it
+  double rtol = 1e-8;  ///< of the residual, relative to the element forces that cancel in it
   int max_iterations = 25;
   int max_halvings = 10;  ///< of an update that turns a cell inside out
 };
@@ -20,7 +20,7 @@ struct SolidNewtonOptions {
 struct SolidNewtonReport {
   bool converged = false;
   int iterations = 0;
-  double residual = 0;    ///< last residual norm relative to the forces that cancel in it
+  double residual = 0;    ///< last residual relative to the forces that cancel in it
   std::string diagnosis;  ///< what went wrong and where; empty when converged
 };
 
@@ -78,16 +78,23 @@ class SolidSystem {
       for (int b = 0; b < m; ++b) add_block(K_.find(nodes[a], nodes[b]), &K[(a * m + b) * dim * dim]);
   }
 
-  /// Residual norm of the free components relative to the forces that cancel in it, and where it is largest.
-  [[nodiscard]] double relative_residual(int& worst_node) const {
-    double sum = 0, scale = 0, worst = -1;
+  /// Norms over the nodes: of the free residual, and of the element forces that cancel in it.
+  struct Norms {
+    double residual = 0, forces = 0;
+    int worst_node = 0;
+  };
+  [[nodiscard]] Norms norms() const {
+    Norms r;
+    double worst = -1;
     for (int i = 0; i < body_.n_dofs(); ++i) {
-      scale += scale_[i] * scale_[i];
+      r.forces += scale_[i] * scale_[i];
       if (is_prescribed(i)) continue;
-      sum += R_[i] * R_[i];
-      if (std::abs(R_[i]) > worst) worst = std::abs(R_[i]), worst_node = i / dim;
+      r.residual += R_[i] * R_[i];
+      if (std::abs(R_[i]) > worst) worst = std::abs(R_[i]), r.worst_node = i / dim;
     }
-    return scale > 0 ? std::sqrt(sum / scale) : 0;
+    r.residual = std::sqrt(r.residual);
+    r.forces = std::sqrt(r.forces);
+    return r;
   }
 
   /// The displacement update that cancels the residual; prescribed components get `gap`.
@@ -129,6 +136,7 @@ SolidNewtonReport solid_newton(System& system, std::vector<double>& u, const Sol
                                const Evaluate& evaluate, const Target& target) {
   SolidNewtonReport report;
   std::vector<double> du, gap(u.size()), u_before = u;
+  double first_forces = 0;  // in free fall nothing is left to compare with at the end
   int halvings = 0;
   for (;;) {
     const DeformationReport deformation = evaluate(u, u_before);
@@ -144,15 +152,17 @@ SolidNewtonReport solid_newton(System& system, std::vector<double>& u, const Sol
       gap[i] = system.is_prescribed(static_cast<int>(i)) ? target(static_cast<int>(i)) - u[i] : 0.0;
       at_target &= std::abs(gap[i]) <= 1e-12 * std::abs(u[i]);
     }
-    int worst_node = 0;
-    report.residual = system.relative_residual(worst_node);
+    const auto norms = system.norms();
+    if (report.iterations == 0) first_forces = norms.forces;
+    const double forces = std::max(norms.forces, first_forces);
+    report.residual = forces > 0 ? norms.residual / forces : 0;
     if (at_target && report.residual <= options.rtol) {
       report.converged = true;
       report.diagnosis.clear();
       return report;
     }
     report.diagnosis = "the residual stays at " + std::to_string(report.residual) +
-                       " of the forces, worst at node " + std::to_string(worst_node);
+                       " of the forces, worst at node " + std::to_string(norms.worst_node);
     if (report.iterations == options.max_iterations || !std::isfinite(report.residual)) return report;
     du = system.solve(gap);
     u_before = u;
