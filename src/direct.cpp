@@ -154,8 +154,8 @@ class DirectSolver::Impl {
   int analyse_on_root() {
     umfpack_dl_defaults(control_);
     control_[UMFPACK_IRSTEP] = 0;  // GMRES around it does the refinement
-    // The pattern is symmetric and the diagonal is no zero (stabilisation), so pivots may be taken from it: that
-    // halves the fill. CHOLMOD's ordering is AMD in the plane and METIS where AMD would fill in.
+    // The pattern is symmetric and the diagonal is no zero (stabilisation), so pivots may be taken from it:
+    // that halves the fill. CHOLMOD's ordering is AMD in the plane and METIS where AMD would fill in.
     control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_CHOLMOD;
     umfpack_dl_free_symbolic(&symbolic_);

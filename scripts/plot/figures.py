@@ -66,7 +66,7 @@ def orders(run, name, table, x, errors, order_of):
     for column in errors:
         h, e = table[x], table[column]
         slope = numpy.log(e[-1] / e[-2]) / numpy.log(h[-1] / h[-2]) if len(h) > 1 else numpy.nan
-        axis.loglog(h, e, "o-", label=f"{column}: order {slope:.2f}")
+        axis.loglog(h, e, "o-", markersize=4, label=f"{column}: order {slope:.2f}")
     for order in order_of:
         h, e = table[x], max(table[c][0] for c in errors)
         axis.loglog(h, e * (h / h[0]) ** order, "k:", linewidth=0.8)
@@ -184,7 +184,7 @@ def panels(n, window):
 def colour(figure, axis, triangulation, value, label, window):
     # Pressure has peaks at corners that would leave the rest without colour; where it is signed, white is zero.
     low, high = (0.0, value.max()) if label == "speed" else numpy.percentile(value, [0.5, 99.5])
-    signed = low < 0 < high
+    signed = min(-low, high) > 0.25 * max(-low, high)
     low, high = (-max(-low, high), max(-low, high)) if signed else (low, max(high, low + 1e-300))
     image = axis.tripcolor(triangulation, value, shading="gouraud", rasterized=True, vmin=low, vmax=high,
                            cmap="RdBu_r" if signed else "viridis" if label == "speed" else "cividis")
@@ -193,7 +193,8 @@ def colour(figure, axis, triangulation, value, label, window):
     axis.set_xlim(window[0], window[1])
     axis.set_ylim(window[2], window[3])
     ratio = (window[3] - window[2]) / (window[1] - window[0])
-    figure.colorbar(image, ax=axis, label=label, fraction=0.046 * ratio, pad=0.01, aspect=max(8, 24 * min(1, ratio)))
+    fraction = max(0.015, 0.046 * ratio)
+    figure.colorbar(image, ax=axis, label=label, fraction=fraction, pad=0.01, aspect=ratio / fraction)
 
 
 def add_streamlines(axis, points, corners, velocity, window, n=240):

@@ -124,13 +124,17 @@ TYPED_TEST(Coupled, VelocitiesAndSpreadForcesDoNotDependOnThePartition) {
 
 TYPED_TEST(Coupled, AMovingCloudHasTheRowsOfAFreshSearch) {
   constexpr int dim = TypeParam::dim;
+  this->locate(this->x);
   for (int step = 0; step < 12; ++step) {
-    // Turns about the middle by steps from a small part of a cell to several cells; some nodes leave and return.
+    // Some go to a vertex of the cell they are in; the others turn about the middle, by a small part of a cell at
+    // first and by several cells at last, and may leave the mesh and return.
     const double angle = 1e-4 * std::pow(3.0, step), c = std::cos(angle), s = std::sin(angle);
     for (size_t p = 0; p < this->x.size(); p += 1 + p % 2) {
       auto& y = this->x[p];
       y = {{0.5 + c * (y[0] - 0.5) - s * (y[1] - 0.5), 0.5 + s * (y[0] - 0.5) + c * (y[1] - 0.5)}};
       if (dim == 3) y[dim - 1] = 0.1 + 0.8 * this->random();
+      if (p % 5 < 2 && this->C.row(p).found())
+        y = this->global.cell_coordinates(this->C.row(p).cell)[this->random.below(TypeParam::n_vertices)];
     }
     const auto report = this->C.locate(this->x);
     Interpolation<TypeParam> fresh(this->whole);

@@ -42,7 +42,7 @@ class BadInput(unittest.TestCase):
                             "there are: quad1, quad2, tri1, tri2")
 
     def test_unknown_preset(self):
-        self.assert_refused(run("cylinder", *settings(preset="2D-4")), CONFIGURATION, "2D-4", "2D-1", "2D-3")
+        self.assert_refused(run("cylinder", *settings(preset="2D-4")), CONFIGURATION, "2D-4", "2D-2", "2D-3", "3D-1Z")
 
     def test_unknown_option(self):
         self.assert_refused(run("cavity", "--frob"), CONFIGURATION, "--frob")

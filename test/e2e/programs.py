@@ -6,9 +6,11 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 from dataclasses import dataclass
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+TIMEOUT = 200  # s
 
 
 @dataclass
@@ -25,19 +27,41 @@ def folder():
         yield pathlib.Path(name)
 
 
-def run(case, *options, ranks=1, out=None, config=None, timeout=200):
-    """Runs a case with its own configuration (or the file `config`) and the options given."""
+def command(case, *options, ranks=1, out, config=None):
+    """How a case is started with its own configuration (or the file `config`)."""
+    words = [pathlib.Path(os.environ["IFSI_DRIVERS"], case), "--out", out,
+             "--config", config or ROOT / "data" / "cases" / f"{case}.toml", *options]
+    launcher = [os.environ["IFSI_MPIEXEC"], "-q", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    return launcher + words
+
+
+def outcome(code, output, out):
+    summary = pathlib.Path(out) / "summary.json"
+    files = sorted(p.name for p in pathlib.Path(out).iterdir()) if pathlib.Path(out).is_dir() else []
+    return Outcome(code, output, json.loads(summary.read_text()) if summary.exists() else {}, files)
+
+
+def run(case, *options, ranks=1, out=None, config=None):
+    """Runs a case to its end."""
     with folder() as scratch:
         out = out or scratch / "out"
-        command = [pathlib.Path(os.environ["IFSI_DRIVERS"], case), "--out", out,
-                   "--config", config or ROOT / "data" / "cases" / f"{case}.toml", *options]
-        if ranks > 1:
-            command = [os.environ["IFSI_MPIEXEC"], "-q", "--oversubscribe", "-n", str(ranks), *command]
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
-                              timeout=timeout, cwd=ROOT)
-        summary = pathlib.Path(out) / "summary.json"
-        files = sorted(p.name for p in pathlib.Path(out).iterdir()) if pathlib.Path(out).is_dir() else []
-        return Outcome(done.returncode, done.stdout, json.loads(summary.read_text()) if summary.exists() else {}, files)
+        done = subprocess.run(command(case, *options, ranks=ranks, out=out, config=config), stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False, timeout=TIMEOUT, cwd=ROOT)
+        return outcome(done.returncode, done.stdout, out)
+
+
+def run_and_disturb(case, *options, out, disturb):
+    """Runs a case, calls disturb(process) after its first steps, and waits for its end."""
+    with subprocess.Popen(command(case, *options, out=out), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          cwd=ROOT) as process:
+        log, deadline = pathlib.Path(out) / "log.txt", time.monotonic() + TIMEOUT
+        while process.poll() is None and not (log.exists() and "\nt " in log.read_text()):
+            if time.monotonic() > deadline:
+                process.kill()
+            time.sleep(0.005)
+        disturb(process)
+        output, _ = process.communicate(timeout=TIMEOUT)
+        return outcome(process.returncode, output, out)
 
 
 def settings(**values):

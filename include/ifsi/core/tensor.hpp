@@ -138,6 +138,12 @@ constexpr T trace(const Mat<T, n>& a) {
   for (int i = 1; i < n; ++i) r += a(i, i);
   return r;
 }
+/// Adds s times the identity.
+template <class T, int n>
+constexpr void add_to_diagonal(Mat<T, n>& a, const T& s) {
+  IFSI_UNROLL
+  for (int i = 0; i < n; ++i) a(i, i) += s;
+}
 /// Double contraction a : b = sum_ij a_ij b_ij.
 template <class T, int r, int c>
 constexpr T inner(const Mat<T, r, c>& a, const Mat<T, r, c>& b) {

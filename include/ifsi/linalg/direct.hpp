@@ -41,8 +41,8 @@ class DirectSolver {
 
   [[nodiscard]] bool ready() const;
   [[nodiscard]] const Cost& cost() const;
-  /// The factorisation in units of an application: measured as 20 ns per entry and 7 Gflop/s against 2.6 ns per
-  /// entry and solve (2D 3k .. 200k unknowns: 16 to 32).
+  /// The factorisation in units of an application: measured as 20 ns per entry and 7 Gflop/s against 2.6 ns
+  /// per entry and solve (2D 3k .. 200k unknowns: 16 to 32).
   [[nodiscard]] double setup_cost() const { return 8 + cost().flops / (18 * cost().lu_entries); }
 
  private:
