@@ -59,8 +59,7 @@ int main(int argc, char** argv) {
               CircumferentialFibre(exact.mu, {0.5, 0.5}),
               Body::Parameters{.rho_s = 1.0, .rho_f = 1.0, .mu_f = 1.0, .mu_s = 0.0, .gravity = {}});
           FsiProblem<Quad1, Body> problem(mesh, boundary, 1.0, Newtonian{1.0}, std::move(ring), flow, fsi);
-          run.totals.dofs = mesh.nodes.n_global() * 3;
-          log_newton(run, problem);
+          attach(run, problem);
           march(run, problem, time, [&](double) { extremes.observe(problem); });
           table.add(1.0 / cells, exact_errors(problem, exact, 0.0));
           FsiPictures(run, 1.0).write(problem, true);

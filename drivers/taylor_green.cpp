@@ -13,13 +13,11 @@
 
 using namespace ifsi;
 
-namespace {
-
 struct Options {
-  double nu = 0.01, dt = 0.025;
+  double nu = 0.01;
   int n = 16, levels = 3;
   std::string element = "quad1", sweep = "none";
-  TimeOptions time{.dt = 0.025, .end = 0.5};
+  TimeOptions time;
   FlowOptions flow;
 };
 
@@ -33,63 +31,53 @@ FlowProblem<Element> decay(Run& run, const Options& o, const Mesh<Element>& mesh
   flow.start(
       0.0, [&](const auto& x) { return exact.v(x, 0.0); }, [&](const auto& x) { return exact.v_dot(x, 0.0); },
       [&](const auto& x) { return exact.p(x, 0.0); });
-  log_newton(run, flow);
+  attach(run, flow);
   TimeOptions time = o.time;
   time.dt = dt;
   march(run, flow, time, [](double) {});
-  run.totals.dofs = mesh.nodes.n_global() * (Element::dim + 1);
   return flow;
 }
 
 template <class Element, class Exact>
 void study(Run& run, Options o, const Exact& exact) {
   ConvergenceTable table(run, o.sweep == "t" ? "t" : "h");
-  const int levels = o.sweep == "none" ? 1 : o.levels;
   if (o.sweep == "t" && o.flow.tau_dt == 0.0) o.flow.tau_dt = o.time.dt;
   std::vector<double> before;
-  for (int level = 0; level < levels; ++level) {
+  for (int level = 0; level < (o.sweep == "none" ? 1 : o.levels); ++level) {
     const int cells = o.sweep == "h" ? o.n << level : o.n;
-    const double dt = o.sweep == "none" ? o.time.dt : o.time.dt / (1 << level);
+    const double dt = o.time.dt / (1 << level);
     const auto mesh = distribute(exact_domain<Element>(cells), run.comm());
     const auto flow = decay(run, o, mesh, exact, dt);
-    if (o.sweep != "t")
-      table.add(1.0 / cells, exact_errors(flow, exact, flow.time()));
-    else if (level > 0)
-      table.add(dt, difference(flow, before));
+    if (o.sweep != "t") table.add(1.0 / cells, exact_errors(flow, exact, flow.time()));
+    if (o.sweep == "t" && level > 0) table.add(dt, difference(flow, before));
     before = flow.solution();
     write_fields(run, flow);
   }
   table.report();
-  const double order_2 = Element::order == 1 ? 1.9 : 2.9;
-  if (o.sweep == "h")
-    run.check_at_least("order_h_v", table.order_v(), order_2, "optimal order of the element");
-  if (o.sweep == "h") run.check_at_least("order_h_p", table.order_p(), 1.5, "expected of equal order");
-  if (o.sweep == "t") run.check("order_t_v", table.order_v(), 2.0, 0.05, "second-order scheme (eq. 8)");
-  if (o.sweep == "t") run.check("order_t_p", table.order_p(), 2.0, 0.05, "second-order scheme (eq. 10)");
+  table.check_orders(Element::order);
 }
 
-}  // namespace
+void taylor_green(Run& run) {
+  Options o;
+  o.time.dt = 0.025, o.time.end = 0.5;
+  run.params.add("nu", o.nu, "length^2/time", "kinematic viscosity", positive);
+  run.params.add("mesh.n", o.n, "-", "cells per side of the coarsest mesh", {2, 1024});
+  run.params.add_choice("mesh.element", o.element,
+                        {"quad1", "quad2", "tri1", "tri2", "hex1", "hex2", "tet1", "tet2", "wedge1"},
+                        "its dimension decides the flow");
+  run.params.add_choice("sweep", o.sweep, {"none", "h", "t"}, "what to refine");
+  run.params.add("levels", o.levels, "-", "members of a sweep, each half the one before", {2, 8});
+  o.time.declare(run.params);
+  o.flow.declare(run.params);
+  run.parse();
+  dispatch_element<Quad1, Quad2, Tri1, Tri2, Hex1, Tet1, Tet2, Hex2, Wedge1>(o.element, [&]<class E>() {
+    using Exact = std::conditional_t<E::dim == 2, TaylorGreen, EthierSteinman>;
+    study<E>(run, o, Exact{o.nu});
+  });
+}
 
 int main(int argc, char** argv) {
-  return run_case(
-      argc, argv, {"taylor_green", "decaying vortices in 2D and 3D, exact solution, orders in h and dt"},
-      [](Run& run) {
-        Options o;
-        run.params.add("nu", o.nu, "length^2/time", "kinematic viscosity", positive);
-        run.params.add("mesh.n", o.n, "-", "cells per side of the coarsest mesh", {2, 1024});
-        run.params.add_choice("mesh.element", o.element,
-                              {"quad1", "quad2", "tri1", "tri2", "hex1", "tet1", "tet2", "hex2", "wedge1"},
-                              "element; its dimension decides the flow");
-        run.params.add_choice("sweep", o.sweep, {"none", "h", "t"}, "what to refine");
-        run.params.add("levels", o.levels, "-", "members of a sweep, each half the one before", {2, 8});
-        o.time.declare(run.params);
-        o.flow.declare(run.params);
-        run.parse();
-        dispatch_element<Quad1, Quad2, Tri1, Tri2, Hex1, Tet1, Tet2, Hex2, Wedge1>(o.element, [&]<class E>() {
-          if constexpr (E::dim == 2)
-            study<E>(run, o, TaylorGreen{o.nu});
-          else
-            study<E>(run, o, EthierSteinman{o.nu});
-        });
-      });
+  return run_case(argc, argv,
+                  {"taylor_green", "decaying vortices in 2D and 3D, exact solution, orders in h and dt"},
+                  taylor_green);
 }

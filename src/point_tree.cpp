@@ -15,7 +15,9 @@ struct Cloud {
   std::vector<Vec<double, dim>> points;
 
   [[nodiscard]] size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] double kdtree_get_pt(size_t i, size_t axis) const { return points[i][static_cast<int>(axis)]; }
+  [[nodiscard]] double kdtree_get_pt(size_t i, size_t axis) const {
+    return points[i][static_cast<int>(axis)];
+  }
   template <class BoundingBox>
   bool kdtree_get_bbox(BoundingBox&) const {
     return false;

@@ -37,6 +37,8 @@ def over_time(run, name="history"):
             axis.legend(fontsize=7, ncol=min(4, len(columns)))
         if spans_decades(table, columns):
             axis.set_yscale("log")
+        elif numpy.ptp(axis.dataLim.intervaly) < 1e-9 * abs(axis.dataLim.y1):  # constant: show no rounding
+            axis.set_ylim(sorted((0.0, 2.0 * axis.dataLim.y1)))
     axes[-1, 0].set_xlabel(labelled(table.first, table.units[table.first]))
     run.save(figure, name)
     pyplot.close(figure)
@@ -182,8 +184,8 @@ def panels(n, window):
 
 
 def colour(figure, axis, triangulation, value, label, window):
-    # Pressure has peaks at corners that would leave the rest without colour; where it is signed, white is zero.
-    low, high = (0.0, value.max()) if label == "speed" else numpy.percentile(value, [0.5, 99.5])
+    # Peaks at corners would leave the rest without colour; where pressure is signed, white is zero.
+    low, high = (0.0, numpy.percentile(value, 99.8)) if label == "speed" else numpy.percentile(value, [0.5, 99.5])
     signed = min(-low, high) > 0.25 * max(-low, high)
     low, high = (-max(-low, high), max(-low, high)) if signed else (low, max(high, low + 1e-300))
     image = axis.tripcolor(triangulation, value, shading="gouraud", rasterized=True, vmin=low, vmax=high,

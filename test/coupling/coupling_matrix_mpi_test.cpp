@@ -1,14 +1,14 @@
 // C K_s C^T against dense products, and its exact linearisation against differences.
-#include "ifsi/coupling/coupling_matrix.hpp"
-
 #include <gtest/gtest.h>
 
+#include "ifsi/coupling/coupling_matrix.hpp"
 #include "scattered.hpp"
 
 namespace {
 using namespace ifsi;
 
-/// Solid nodes all over the mesh in cells of three and of four, so that cells reach far beyond the ghost layer.
+/// Solid nodes all over the mesh in cells of three and of four, so that cells reach far beyond the ghost
+/// layer.
 template <class Element>
 struct Solid : testing::Test, sample::Scattered<Element> {
   static constexpr int dim = Element::dim, B = dim + 1;
@@ -148,8 +148,8 @@ TYPED_TEST(Solid, OnlyCellsThatTouchOwnedNodesAreRelevant) {
     bool touches = false;
     for (int p : this->cells[c])
       for (long node : this->C.row(p).node)
-        touches = touches ||
-                  (this->C.row(p).found() && this->mesh.nodes.owner(node) == this->mesh.comm.rank());
+        touches =
+            touches || (this->C.row(p).found() && this->mesh.nodes.owner(node) == this->mesh.comm.rank());
     if (touches) expected.push_back(c);
   }
   EXPECT_EQ(this->matrix.relevant_cells(), expected);

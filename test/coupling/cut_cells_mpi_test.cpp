@@ -1,10 +1,9 @@
 // Cut cells and the field s around them, alike on all ranks; the ratio of solid to fluid mesh size.
-#include "ifsi/coupling/cut_cells.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "ifsi/coupling/cut_cells.hpp"
 #include "ifsi/coupling/mesh_ratio.hpp"
 #include "scattered.hpp"
 
@@ -14,7 +13,9 @@ using namespace ifsi;
 template <class Element>
 struct Cut : testing::Test, sample::Scattered<Element> {
   using Point = Vec<double, Element::dim>;
-  Cut() : sample::Scattered<Element>(sample::bent<Element>(sample::counts<Element::dim>(9 - 2 * Element::dim))) {}
+  Cut()
+      : sample::Scattered<Element>(
+            sample::bent<Element>(sample::counts<Element::dim>(9 - 2 * Element::dim))) {}
   CutCells<Element> cut{this->mesh};
   sample::Random random{6};
   /// A few nodes near a corner of the box, one of them outside.
@@ -115,7 +116,8 @@ double ratio_of(double h_s, std::array<int, FluidElement::dim> n) {
     cell[a] = a;
     auto& y = x.emplace_back();
     for (int i = 0; i < dim; ++i)
-      y[i] = 0.31 + h_s * (i < SolidElement::dim ? SolidElement::nodes[a][i] - SolidElement::nodes[0][i] : 0.0);
+      y[i] =
+          0.31 + h_s * (i < SolidElement::dim ? SolidElement::nodes[a][i] - SolidElement::nodes[0][i] : 0.0);
   }
   C.locate(x);
   return mesh_ratio<SolidElement>(C, {cell}, 3).ratio;

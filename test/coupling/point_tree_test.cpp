@@ -30,8 +30,8 @@ void compare_with_brute_force() {
     for (size_t i = 1; i < found.size(); ++i) EXPECT_LE(distance2(found[i - 1]), distance2(found[i]));
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
-    const int nearest = *std::min_element(all.begin(), all.end(),
-                                          [&](int i, int j) { return distance2(i) < distance2(j); });
+    const int nearest =
+        *std::min_element(all.begin(), all.end(), [&](int i, int j) { return distance2(i) < distance2(j); });
     EXPECT_EQ(distance2(tree.nearest(x)), distance2(nearest));
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Meshes of every cell type with cells that are neither straight nor equal, and positions to look for in them.
+/// Meshes of every cell type with cells that are neither straight nor equal, and positions to look for in
+/// them.
 
 #include <array>
 #include <cmath>
@@ -95,8 +96,8 @@ Vec<double, Element::dim> on_face(Random& random) {
   const int face = random.below(Element::n_faces);
   if constexpr (requires { typename Element::OtherFace; })
     if (Element::face_shape(face) == Element::OtherFace::shape)
-      return face_to_cell<Element, typename Element::OtherFace>(
-          face, inside<typename Element::OtherFace>(random));
+      return face_to_cell<Element, typename Element::OtherFace>(face,
+                                                                inside<typename Element::OtherFace>(random));
   return face_to_cell<Element>(face, inside<typename Element::Face>(random));
 }
 

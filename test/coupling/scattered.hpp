@@ -9,8 +9,8 @@
 
 namespace ifsi::sample {
 
-/// A mesh distributed over all ranks and one that each rank has for itself, with C on both. Results are compared
-/// at input points: the numbering that does not depend on the partition.
+/// A mesh distributed over all ranks and one that each rank has for itself, with C on both. Results are
+/// compared at input points: the numbering that does not depend on the partition.
 template <class Element>
 struct Scattered {
   static constexpr int dim = Element::dim;
@@ -34,8 +34,8 @@ struct Scattered {
   [[nodiscard]] int input_of_whole(long node) const { return whole.input_point[node]; }
   /// Input points of all global nodes of `mesh`, on every rank.
   [[nodiscard]] std::vector<int> input_of_nodes() const {
-    return mesh.comm.all_gather(std::vector<int>(mesh.input_point.begin(),
-                                                 mesh.input_point.begin() + mesh.n_owned_nodes()));
+    return mesh.comm.all_gather(
+        std::vector<int>(mesh.input_point.begin(), mesh.input_point.begin() + mesh.n_owned_nodes()));
   }
   /// Nodal values from a field of positions; `stride` numbers per node, `dim` of them filled.
   template <class Field>
@@ -51,7 +51,8 @@ struct Scattered {
 
 /// Positions all over the unit box, on vertices and faces of the mesh, and some outside of it.
 template <class Element>
-std::vector<Vec<double, Element::dim>> positions(const GlobalMesh<Element>& mesh, Random& random, int n_outside) {
+std::vector<Vec<double, Element::dim>> positions(const GlobalMesh<Element>& mesh, Random& random,
+                                                 int n_outside) {
   std::vector<Vec<double, Element::dim>> x;
   for (int k = 0; k < 60; ++k) x.push_back(random.vector<Element::dim>(0, 1));
   for (int k = 0; k < 30; ++k) {

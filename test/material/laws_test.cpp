@@ -44,6 +44,21 @@ TEST(UncoupledNeoHookean, DilatationByHand) {
   EXPECT_NEAR(P(0, 0), 0.5 * 5 * (J - 1 / J) * J / 1.1, 1e-13);
 }
 
+TEST(MooneyRivlin, IsochoricStretchByHand) {
+  const MooneyRivlin law(2, 3, 5);
+  const double a = 1.44, b = 1 / 1.2;  // a b^2 = 1
+  const auto tau = law.first_piola(stretches(a, b, b), X0) * stretches(a, b, b);
+  const double difference = 2 * (2 + 3 * b * b) * (a * a - b * b);  // Rivlin: 2 (C10 + C01 / a) (a^2 - 1/a)
+  EXPECT_NEAR(tau(0, 0) - tau(1, 1), difference, 1e-13);
+  EXPECT_NEAR(trace(tau), 0, 1e-13);
+}
+
+TEST(Yeoh, EnergyByHand) {
+  const Yeoh law(2, 3, 4, 5);
+  const double x = 1.44 * 1.44 + 2 / 1.44 - 3;
+  EXPECT_NEAR(law.psi(stretches(1.44, 1 / 1.2, 1 / 1.2), X0), 2 * x + 3 * x * x + 4 * x * x * x, 1e-13);
+}
+
 TEST(CircumferentialFibre, PullsAlongTheCircle) {
   const CircumferentialFibre law(3, {1, 1});
   const auto P = law.first_piola(Mat<double, 2>::identity(), Vec<double, 2>{1, 4});
@@ -72,6 +87,8 @@ TEST(Moduli, BadParametersAreNamed) {
   expect_configuration_error([] { StVenantKirchhoff(Lame{NAN, 1}); }, "shear modulus mu");
   expect_configuration_error([] { UncoupledNeoHookean(0, 1); }, "C0");
   expect_configuration_error([] { UncoupledNeoHookean(1, INFINITY); }, "kappa");
+  expect_configuration_error([] { MooneyRivlin(1, -1, 1); }, "C10 + C01");
+  expect_configuration_error([] { Yeoh(0, 1, 1, 1); }, "c1");
   expect_configuration_error([] { CircumferentialFibre(-1, {0, 0}); }, "mu");
 }
 

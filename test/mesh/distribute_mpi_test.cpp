@@ -167,7 +167,8 @@ TEST(DistributeMesh, PeriodicNodesHaveOnePlace) {
     for (int d = 0; d < 2; ++d) EXPECT_EQ(std::remainder(mesh.points[p][d] - x[mesh.point_node[p]][d], 1), 0);
 }
 
-/// Nodes of a cell have near numbers: along the rows of this long box they would be 2^6 to 2^8 apart in the mean.
+/// Nodes of a cell have near numbers: along the rows of this long box they would be 2^6 to 2^8 apart in the
+/// mean.
 TEST(DistributeMesh, NumberingIsLocal) {
   const auto mesh = distribute(box<Quad1>({0, 0}, {16, 1}, {256, 16}), Communicator());
   double spread = 0;

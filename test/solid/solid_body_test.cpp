@@ -8,7 +8,8 @@ namespace {
 using namespace ifsi;
 using namespace ifsi::testing;
 
-/// The box [1,3] x [0,1] (x [0,1]), 3 x 2 (x 2) cells, nodes moved at random, those of the boundary within it.
+/// The box [1,3] x [0,1] (x [0,1]), 3 x 2 (x 2) cells, nodes moved at random, those of the boundary within
+/// it.
 template <class Element>
 GlobalMesh<Element> distorted_box(double size = 0.06) {
   constexpr int dim = Element::dim;
@@ -95,7 +96,8 @@ TYPED_TEST(SolidBodyContract, BatchesComputeWhatTheScalarKernelDoes) {
   using Kernel = SolidCell<typename Body::Element, UncoupledNeoHookean, typename Body::Formulation,
                            typename Body::Coordinates, DefaultQuadrature<typename Body::Element>, double>;
   const auto body = TestFixture::make(immersed_parameters<dim>());
-  const auto u = noise(body.n_dofs(), 0.04, 5), v = noise(body.n_dofs(), 1, 6), a = noise(body.n_dofs(), 1, 7);
+  const auto u = noise(body.n_dofs(), 0.04, 5), v = noise(body.n_dofs(), 1, 6),
+             a = noise(body.n_dofs(), 1, 7);
   const StateSlopes slopes{0.7, 1.9, 3.1};
   std::vector<int> visited, cells = body.all_cells();
   std::swap(cells[1], cells[4]);
@@ -324,10 +326,9 @@ TYPED_TEST(SolidBodyContract, DeadTractionAddsUpToForce) {
   Vec<double, dim> traction{}, force{};
   traction[0] = 2;
   traction[1] = -3;
-  body.add_traction(traction, body.faces_on("right"),
-                    [&](std::span<const int>, std::span<const double> R) {
-                      for (std::size_t k = 0; k < R.size(); ++k) force[k % dim] -= R[k];
-                    });
+  body.add_traction(traction, body.faces_on("right"), [&](std::span<const int>, std::span<const double> R) {
+    for (std::size_t k = 0; k < R.size(); ++k) force[k % dim] -= R[k];
+  });
   const double area = TestFixture::axisymmetric ? 2 * std::numbers::pi * 3 : 1;
   EXPECT_NEAR(force[0], 2 * area, 1e-12);
   EXPECT_NEAR(force[1], -3 * area, 1e-12);
@@ -364,8 +365,8 @@ Quads quads(SolidParameters<2> p = {}) {
 
 /// Mean dilatation with a compressible law: the same homogeneous stress as without.
 TEST(SolidBody, MeanDilatationKeepsHomogeneousStress) {
-  const SolidBody<Quad1, NeoHookean, MeanDilatation> mean("flag", distorted_box<Quad1>(), NeoHookean(Lame{1, 2}),
-                                                         {});
+  const SolidBody<Quad1, NeoHookean, MeanDilatation> mean("flag", distorted_box<Quad1>(),
+                                                          NeoHookean(Lame{1, 2}), {});
   const auto u = nodal<2>(mean.mesh().points, [](const Vec<double, 2>& X) { return some_gradient<2>() * X; });
   const auto expected = quads().fields(u).cauchy, found = mean.fields(u).cauchy;
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-13);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The contract of the solid kernel, over element x law x formulation x coordinates: its residual is the gradient
-/// of the energy and its tangent that of the residual, exactly (dual numbers).
+/// The contract of the solid kernel, over element x law x formulation x coordinates: its residual is the
+/// gradient of the energy and its tangent that of the residual, exactly (dual numbers).
 
 #include <gtest/gtest.h>
 
@@ -75,10 +75,11 @@ TYPED_TEST_P(SolidCellContract, ElasticResidualIsTheGradientOfTheEnergy) {
   const auto cell = this->sample();
   for (const auto& law : laws<typename TypeParam::Law>()) {
     typename TestFixture::Residual R;
-    typename TypeParam::template Kernel<double>(cell, law)
-        .residual(massless, [&](int a, const Vec<double, dim>& R_a) {
-          for (int i = 0; i < dim; ++i) R[a * dim + i] = R_a[i];
-        });
+    typename TypeParam::template Kernel<double>(cell, law).residual(massless,
+                                                                    [&](int a, const Vec<double, dim>& R_a) {
+                                                                      for (int i = 0; i < dim; ++i)
+                                                                        R[a * dim + i] = R_a[i];
+                                                                    });
     for (int k = 0; k < TestFixture::n_dofs; ++k) {
       auto moved = TestFixture::template lifted<D>(cell);
       moved.u[k / dim][k % dim].slope = 1;
@@ -95,13 +96,12 @@ TYPED_TEST_P(SolidCellContract, TangentIsTheGradientOfTheResidual) {
   const auto cell = this->sample();
   for (const auto& law : laws<typename TypeParam::Law>()) {
     std::array<std::array<double, n_dofs>, n_dofs> K;
-    typename TypeParam::template Kernel<double>(cell, law)
-        .residual_and_tangent(
-            this->solid, slopes, [](int, const Vec<double, dim>&) {},
-            [&](int a, int b, const Mat<double, dim>& K_ab) {
-              for (int i = 0; i < dim; ++i)
-                for (int k = 0; k < dim; ++k) K[a * dim + i][b * dim + k] = K_ab(i, k);
-            });
+    typename TypeParam::template Kernel<double>(cell, law).residual_and_tangent(
+        this->solid, slopes, [](int, const Vec<double, dim>&) {},
+        [&](int a, int b, const Mat<double, dim>& K_ab) {
+          for (int i = 0; i < dim; ++i)
+            for (int k = 0; k < dim; ++k) K[a * dim + i][b * dim + k] = K_ab(i, k);
+        });
     for (int k = 0; k < n_dofs; ++k) {
       auto moved = TestFixture::template lifted<D>(cell);
       moved.u[k / dim][k % dim].slope = slopes.u;

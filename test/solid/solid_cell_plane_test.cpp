@@ -2,14 +2,15 @@
 #include "solid/solid_cell_contract.hpp"
 
 namespace ifsi::testing {
-using Plane = ::testing::Types<
-    Case<Tri1, Displacement, Cartesian>, Case<Tri2, Displacement, Cartesian>,
-    Case<Quad1, Displacement, Cartesian>, Case<Quad2, Displacement, Cartesian>,
-    Case<Quad1, MeanDilatation, Cartesian>, Case<Quad1, MeanDilatation, Cartesian, UncoupledNeoHookean>>;
+using Plane = ::testing::Types<Case<Tri1, Displacement, Cartesian>, Case<Tri2, Displacement, Cartesian>,
+                               Case<Quad1, Displacement, Cartesian>, Case<Quad2, Displacement, Cartesian>,
+                               Case<Quad1, MeanDilatation, Cartesian>,
+                               Case<Quad1, MeanDilatation, Cartesian, UncoupledNeoHookean>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Plane, SolidCellContract, Plane);
 
-using Revolution = ::testing::Types<Case<Tri1, Displacement, Axisymmetric>, Case<Quad2, Displacement, Axisymmetric>,
-                                    Case<Quad1, MeanDilatation, Axisymmetric>,
-                                    Case<Quad1, MeanDilatation, Axisymmetric, UncoupledNeoHookean>>;
+using Revolution =
+    ::testing::Types<Case<Tri1, Displacement, Axisymmetric>, Case<Quad2, Displacement, Axisymmetric>,
+                     Case<Quad1, MeanDilatation, Axisymmetric>,
+                     Case<Quad1, MeanDilatation, Axisymmetric, UncoupledNeoHookean>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Revolution, SolidCellContract, Revolution);
 }  // namespace ifsi::testing

@@ -36,6 +36,14 @@ struct Vec {
   }
 };
 
+/// to = from, number by number: compilers copy a whole struct in pieces narrower than a pack, and loads of a
+/// pack then wait for the pieces.
+template <class T, int n>
+constexpr void copy(const Vec<T, n>& from, Vec<T, n>& to) {
+  IFSI_UNROLL
+  for (int i = 0; i < n; ++i) to[i] = from[i];
+}
+
 /// Matrix of rows x cols numbers of type T; m(i, j) is row i, column j.
 template <class T, int rows, int cols = rows>
 struct Mat {

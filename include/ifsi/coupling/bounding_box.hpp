@@ -83,7 +83,8 @@ struct VertexElementOf<Shape::wedge> {
 template <class Element>
 using VertexElement = typename VertexElementOf<Element::shape>::Type;
 
-/// How far the nodes X that are no vertices lie off the cell through its vertices: the largest distance per axis.
+/// How far the nodes X that are no vertices lie off the cell through its vertices: the largest distance per
+/// axis.
 template <class Element, int dim>
 Vec<double, dim> offset_from_vertex_cell(const std::array<Vec<double, dim>, Element::n_nodes>& X) {
   Vec<double, dim> offset = Vec<double, dim>::zero();
@@ -98,8 +99,9 @@ Vec<double, dim> offset_from_vertex_cell(const std::array<Vec<double, dim>, Elem
 }
 
 /// A box that holds every x(xi) of the cell with nodes X, grown by `margin` times its diagonal.
-/// The cell through its vertices lies in their hull; node a adds at most |N_a| times its offset from that cell, and
-/// the functions of the other nodes have sum |N_a| < 2 (quadratic triangles 4/3, tets 3/2, hexes 1.953).
+/// The cell through its vertices lies in their hull; node a adds at most |N_a| times its offset from that
+/// cell, and the functions of the other nodes have sum |N_a| < 2 (quadratic triangles 4/3, tets 3/2,
+/// hexes 1.953).
 template <class Element, int dim>
 Box<dim> cell_box(const std::array<Vec<double, dim>, Element::n_nodes>& X, double margin) {
   Box<dim> box;

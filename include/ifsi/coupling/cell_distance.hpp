@@ -55,8 +55,8 @@ struct SquaredDistance {
   }
 };
 
-/// The xi near the node nearest to `target` where x(xi) is closest to it, by damped Newton, as if the cell had no
-/// faces. For lines and surfaces in space: Element::dim <= 2.
+/// The xi near the node nearest to `target` where x(xi) is closest to it, by damped Newton, as if the cell
+/// had no faces. For lines and surfaces in space: Element::dim <= 2.
 template <class Element, int dim>
 Vec<double, Element::dim> closest_parameter(const std::array<Vec<double, dim>, Element::n_nodes>& X,
                                             const Vec<double, dim>& target) {
@@ -82,14 +82,15 @@ Vec<double, Element::dim> closest_parameter(const std::array<Vec<double, dim>, E
 
 }  // namespace detail
 
-/// Distance from x to the faces of a cell with nodes X (not zero when x is inside). Exact where the faces are flat;
-/// on curved ones the distance to a point of theirs that is closest at least locally.
+/// Distance from x to the faces of a cell with nodes X (not zero when x is inside). Exact where the faces are
+/// flat; on curved ones the distance to a point of theirs that is closest at least locally.
 template <class Element, int dim>
 double distance_to_faces(const std::array<Vec<double, dim>, Element::n_nodes>& X, const Vec<double, dim>& x);
 
 /// Distance from x to a cell of lower dimension than the space.
 template <class Element, int dim>
-double distance_to_manifold(const std::array<Vec<double, dim>, Element::n_nodes>& X, const Vec<double, dim>& x) {
+double distance_to_manifold(const std::array<Vec<double, dim>, Element::n_nodes>& X,
+                            const Vec<double, dim>& x) {
   if constexpr (Element::dim == 0) {
     return std::sqrt(dot(x - X[0], x - X[0]));
   } else {

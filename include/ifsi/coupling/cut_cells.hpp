@@ -13,15 +13,16 @@
 
 namespace ifsi {
 
-/// Shape of the nodal field s: s_max on the nodes of the cut cells and on `rings` further layers of nodes, then down
-/// to 1 over `transition` layers. Layer k + 1: the nodes that share a cell with layer k.
+/// Shape of the nodal field s: s_max on the nodes of the cut cells and on `rings` further layers of nodes,
+/// then down to 1 over `transition` layers. Layer k + 1: the nodes that share a cell with layer k.
 struct StabilisationScale {
   double s_max = 1.0;
   int rings = 1;
   int transition = 1;
 
-  /// s on layer k (0: the nodes of the cut cells). ln s falls as a cubic with zero slope at both ends, since tau_M
-  /// goes like s^(-1/2); with transition = 1 the shape functions alone make the passage from s_max to 1.
+  /// s on layer k (0: the nodes of the cut cells). ln s falls as a cubic with zero slope at both ends, since
+  /// tau_M goes like s^(-1/2); with transition = 1 the shape functions alone make the passage from s_max
+  /// to 1.
   [[nodiscard]] double at_layer(int k) const {
     if (k <= rings) return s_max;
     const double t = static_cast<double>(k - rings) / transition;
@@ -29,8 +30,8 @@ struct StabilisationScale {
   }
 };
 
-/// The local fluid cells, ghosts included, that hold a solid node. A node on a face is held by one cell alone, the
-/// one of its row in C; the flags of a cell are the same on all ranks that have it.
+/// The local fluid cells, ghosts included, that hold a solid node. A node on a face is held by one cell
+/// alone, the one of its row in C; the flags of a cell are the same on all ranks that have it.
 template <class Element>
 class CutCells {
  public:
@@ -62,8 +63,8 @@ class CutCells {
     return s;
   }
 
-  /// Layer of each local node, 0 for the nodes of the flagged cells; those behind `last` have a very large number.
-  /// Collective.
+  /// Layer of each local node, 0 for the nodes of the flagged cells; those behind `last` have a very large
+  /// number. Collective.
   [[nodiscard]] std::vector<int> layers(int last) const {
     constexpr int far = std::numeric_limits<int>::max();
     std::vector<int> layer(mesh_.n_nodes(), far);

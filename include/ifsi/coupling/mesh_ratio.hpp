@@ -13,12 +13,12 @@
 
 namespace ifsi {
 
-/// The largest h_s/h of a solid: up to 2/3 it is tight, 1 is tolerable, beyond it the fluid passes between the nodes
-/// (measured on a closed valve with bilinear cells: 4/3 leaks, 2 has holes).
+/// The largest h_s/h of a solid: up to 2/3 it is tight, 1 is tolerable, beyond it the fluid passes between
+/// the nodes (measured on a closed valve with bilinear cells: 4/3 leaks, 2 has holes).
 template <int dim>
 struct MeshRatio {
-  double ratio = 0.0;                                    ///< h_s/h
-  int cell = -1;                                         ///< solid cell where it is; -1: no node is in the mesh
+  double ratio = 0.0;  ///< h_s/h
+  int cell = -1;       ///< solid cell where it is; -1: no node is in the mesh
   Vec<double, dim> position = Vec<double, dim>::zero();  ///< middle of the edge it is from
 };
 
@@ -43,8 +43,8 @@ void for_each_spacing(std::span<const int> nodes, Visit&& visit) {
 }
 }  // namespace detail
 
-/// Length of e in node spacings of the fluid cell that holds a solid node: sqrt(e.G e) is 2 along the edge of a
-/// regular cell, in any direction of it. \param row of that node, found.
+/// Length of e in node spacings of the fluid cell that holds a solid node: sqrt(e.G e) is 2 along the edge of
+/// a regular cell, in any direction of it. \param row of that node, found.
 template <class Element>
 double length_in_cells(const CouplingRow<Element>& row, const Vec<double, Element::dim>& e) {
   // J^-1 e: how xi = sum_B xi_B N_B changes along e.

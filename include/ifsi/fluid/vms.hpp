@@ -113,7 +113,7 @@ class VmsPoint {
                                                                 T lap) const {
     TrialFunction<T, dim> b;
     b.N = N;
-    b.grad = grad;
+    copy(grad, b.grad);
     if constexpr (axisymmetric) lap += inverse_r_ * grad[0];
     b.transport = b.D = T(rho_c_ * N);
     if constexpr (convection) {
@@ -130,7 +130,7 @@ class VmsPoint {
     a.N = JxW_ * b.N;
     const Vec<T, dim> grad = JxW_ * b.grad, tau_grad = tau_M_ * grad;
     const Vec<T, dim> tau_grad_E = transpose(E_) * tau_grad;
-    a.div = grad;
+    copy(grad, a.div);
     if constexpr (axisymmetric) a.div[0] += a.N * inverse_r_;
     if constexpr (axisymmetric) a.hoop = 2.0 * mu_ * inverse_r_ * inverse_r_ * a.N;
     a.mu_grad = mu_ * grad;

@@ -23,24 +23,28 @@
 
 namespace ifsi {
 
-/// Logs each Newton iteration of a problem in the detailed log.
+/// Ties a problem to its run: Newton iterations go to the detailed log, the number of unknowns to the
+/// summary, and a restarted run continues from its checkpoint.
 template <class Problem>
-void log_newton(Run& run, Problem& problem) {
+void attach(Run& run, Problem& problem) {
   problem.watch([&run](const NewtonReport& r) {
     char line[120];
     std::snprintf(line, sizeof line, "  newton %d  momentum %.2e  mass %.2e  gmres so far %d", r.iterations,
                   r.residual.momentum, r.residual.mass, r.gmres);
     run.detail(line);
   });
+  run.totals.dofs = problem.mesh().nodes.n_global() * Problem::B;
+  if (!run.restarted()) return;
+  problem.restore(Checkpoint(run.comm(), run.restart_file()));
+  run.log("continues from t = " + std::to_string(problem.time()));
 }
 
 /// Solves for the steady state and logs how Newton got there. \throws Error (nonlinear) when it does not.
 template <class Problem>
 NewtonReport solve_steady(Run& run, Problem& problem) {
-  log_newton(run, problem);
+  attach(run, problem);
   const NewtonReport report = problem.solve_steady();
   if (!report.converged) throw Error(ExitCode::nonlinear, "no steady state found: " + report.failure);
-  run.totals.dofs = problem.mesh().nodes.n_global() * Problem::B;
   run.totals.newton += report.iterations;
   run.totals.gmres += report.gmres;
   ++run.totals.steps;
@@ -131,6 +135,19 @@ class ConvergenceTable {
     if (rows_.size() < 2) return;
     run_.metric("order_" + variable_ + "_v", order_v());
     run_.metric("order_" + variable_ + "_p", order_p());
+  }
+
+  /// Holds a sweep to what theory promises for shape functions of order k: k + 1 in h for the velocity, 1.5
+  /// or more for the pressure, 2 in time for both (eq. 8, eq. 10).
+  void check_orders(int k) const {
+    if (rows_.size() < 2) return;
+    if (variable_ == "h") {
+      run_.check_at_least("order_h_v", order_v(), k + 0.9, "optimal order of the element");
+      run_.check_at_least("order_h_p", order_p(), 1.5, "expected of equal order");
+    } else {
+      run_.check("order_t_v", order_v(), 2.0, 0.05, "second-order scheme (eq. 8)");
+      run_.check("order_t_p", order_p(), 2.0, 0.05, "second-order scheme (eq. 10)");
+    }
   }
 
  private:

@@ -2,6 +2,7 @@
 /// \file
 /// What the drivers of immersed cases share: output of the solids, balances, tip curves against references.
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -14,6 +15,35 @@
 #include "ifsi/simulation/signal.hpp"
 
 namespace ifsi {
+
+/// What the cases of a leaflet in a channel let a user choose. Densities of fluid and solid are equal.
+struct LeafletOptions {
+  std::array<int, 2> n,
+      n_s;  ///< fluid cells along and across the channel, solid cells through and along the leaflet
+  double rho = 100.0, mu = 10.0, picture_every = 0.1;
+  TimeOptions time;
+  FlowOptions flow;
+  FsiOptions fsi;
+
+  LeafletOptions(std::array<int, 2> fluid_cells, std::array<int, 2> solid_cells, double dt)
+      : n(fluid_cells), n_s(solid_cells) {
+    time.dt = dt, time.end = 3.0, flow.rho_inf = 0.0;
+  }
+  void declare(Parameters& params) {
+    params.add("mesh.nx", n[0], "-", "fluid cells along the channel", {8, 4096});
+    params.add("mesh.ny", n[1], "-", "fluid cells across the channel", {4, 1024});
+    params.add("solid.n_thick", n_s[0], "-", "solid cells through the thickness", {1, 64});
+    params.add("solid.n_high", n_s[1], "-", "solid cells along the leaflet", {4, 2000});
+    params.add("fluid.rho", rho, "mass/length^3", "density of fluid and solid", positive);
+    params.add("fluid.mu", mu, "mass/(length time)", "dynamic viscosity", positive);
+    params.add("output.every", picture_every, "time", "time between pictures", positive);
+    time.declare(params), flow.declare(params), fsi.declare(params);
+  }
+  /// Parameters of a solid that displaces this fluid.
+  [[nodiscard]] SolidParameters<2> solid() const {
+    return {.rho_s = rho, .rho_f = rho, .mu_f = mu, .mu_s = 0.0, .gravity = {}};
+  }
+};
 
 /// The deformed bodies as one grid with velocity, det F and largest principal stress; rank 0 writes all of
 /// it.
@@ -55,6 +85,12 @@ class FsiPictures {
       : fluid_(run.comm(), run.path(""), "fluid"),
         solid_(run.comm(), run.path(""), "solid"),
         interval_(interval) {}
+
+  /// A restarted run keeps the frames up to its time.
+  void resume(double t) {
+    fluid_.resume(t), solid_.resume(t);
+    next_ = (std::floor(t / interval_ + 1e-9) + 1.0) * interval_;
+  }
 
   template <class Problem>
   void write(const Problem& problem, bool always = false) {
@@ -139,6 +175,84 @@ struct FsiExtremes {
       run.log("warning: solid nodes are up to " + std::to_string(mesh_ratio) +
               " fluid spacings apart; above 1 the fluid leaks between them");
   }
+};
+
+/// What every leaflet case records: the displacement of one node, balances, pictures, and the figures of the
+/// summary.
+template <class Problem>
+class TipHistory {
+ public:
+  /// \param node whose displacement is followed; \param more further columns of history.csv
+  TipHistory(Run& run, const Problem& problem, const LeafletOptions& o, int node, const std::string& length,
+             const std::vector<Column>& more = {})
+      : run_(run),
+        problem_(problem),
+        node_(node),
+        length_(length),
+        t_end_(o.time.end),
+        pictures_(run, o.picture_every) {
+    if (run.restarted()) pictures_.resume(problem.time());
+    std::vector<Column> columns = {{"t", "s"},
+                                   {"tip_dx", length},
+                                   {"tip_dy", length},
+                                   {"area", length + "^2"},
+                                   {"elastic_energy", "energy/length"},
+                                   {"kinetic_energy", "energy/length"},
+                                   {"det_f_min", "-"},
+                                   {"dt", "s"}};
+    columns.insert(columns.end(), more.begin(), more.end());
+    csv_ = run.csv("history.csv", columns, problem.time());
+  }
+
+  /// Call after each step; `more` fills the further columns.
+  void observe(double dt, const std::vector<double>& more = {}) {
+    const double t = problem_.time();
+    const auto u = problem_.solids().displacement(node_);
+    const auto totals = extremes_.observe(problem_);
+    constraint_ = std::max(constraint_, problem_.constraint_violation());
+    dx_.add(t, u[0]), dy_.add(t, u[1]);
+    std::vector<double> row = {t,
+                               u[0],
+                               u[1],
+                               totals.volume,
+                               totals.elastic_energy,
+                               totals.kinetic_energy,
+                               totals.deformation.min_det_F,
+                               dt};
+    row.insert(row.end(), more.begin(), more.end());
+    csv_.row(row);
+    pictures_.write(problem_, t >= t_end_ * (1.0 - 1e-10));
+  }
+  [[nodiscard]] const Signal& dx() const { return dx_; }
+  [[nodiscard]] const Signal& dy() const { return dy_; }
+
+  /// Extremes of the tip from t_from on, and those of the body over the whole run.
+  void report(double t_from) const {
+    run_.metric("tip_dx_max", dx_.max(t_from).value, length_);
+    run_.metric("tip_dx_min", dx_.min(t_from).value, length_);
+    run_.metric("tip_dy_max", dy_.max(t_from).value, length_);
+    run_.metric("constraint_max", constraint_, length_ + "/s");
+    extremes_.report(run_);
+  }
+  /// Root mean square differences to the curves data/reference/<name>_dx_<curve>.csv and _dy_.
+  void compare(const std::string& name, const std::string& curve) const {
+    const std::string file = std::string(IFSI_DATA_DIR) + "/reference/" + name;
+    const double rms_x = rms_difference(dx_, file + "_dx_" + curve + ".csv", "dx_cm", 0.0, t_end_);
+    const double rms_y = rms_difference(dy_, file + "_dy_" + curve + ".csv", "dy_cm", 0.0, t_end_);
+    run_.metric("rms_dx_" + curve, rms_x, length_);
+    run_.metric("rms_dy_" + curve, rms_y, length_);
+  }
+
+ private:
+  Run& run_;
+  const Problem& problem_;
+  int node_;
+  std::string length_;
+  double t_end_, constraint_ = 0.0;
+  Signal dx_, dy_;
+  FsiExtremes extremes_;
+  FsiPictures pictures_;
+  CsvFile csv_;
 };
 
 }  // namespace ifsi

@@ -82,6 +82,17 @@ class FsiProblem : public FlowProblem<Element, Model> {
   /// Smallest det F of the last assembly, over all ranks.
   [[nodiscard]] double min_det_F() const { return min_det_F_; }
 
+  /// Largest difference between a solid node's velocity and the fluid's there, by the C of the last step.
+  [[nodiscard]] double constraint_violation() const {
+    const auto v = this->state_.velocity();
+    const auto v_f = C_.velocities(v.data(), Flow::B);
+    double largest = 0.0;
+    for (int a = 0; a < solids_.n_nodes(); ++a)
+      for (int i = 0; i < Flow::dim; ++i)
+        largest = std::max(largest, std::abs(solids_.velocity()[a * Flow::dim + i] - v_f[a][i]));
+    return largest;
+  }
+
   /// One step; when the report says it did not converge nothing has changed.
   NewtonReport step(double dt) {
     const auto scheme = GeneralizedAlpha::from_rho_inf(this->options_.rho_inf);

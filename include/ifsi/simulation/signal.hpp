@@ -19,6 +19,9 @@ class Signal {
   void add(double t, double value) { samples_.push_back({t, value}); }
   [[nodiscard]] bool empty() const { return samples_.empty(); }
 
+  /// The latest value; 0 when there is none.
+  [[nodiscard]] double last() const { return samples_.empty() ? 0.0 : samples_.back().value; }
+
   /// Largest value at or after t_from, the parabola through the sample and its neighbours taken to its top.
   [[nodiscard]] Extreme max(double t_from = -std::numeric_limits<double>::infinity()) const {
     return extreme(t_from, 1.0);

@@ -114,8 +114,7 @@ class DilatedLaw<Law, T, n, dim> {
       : law_(law), F_(F), X_(X), theta_(theta) {}
   [[nodiscard]] T psi() const { return law_.isochoric.psi(F_, X_) + law_.volumetric.U(theta_); }
   [[nodiscard]] Mat<T, 3> cauchy() const {
-    return detail::cauchy(law_.isochoric, F_, X_) +
-           law_.volumetric.dU(theta_) * Mat<T, 3>::identity();
+    return detail::cauchy(law_.isochoric, F_, X_) + law_.volumetric.dU(theta_) * Mat<T, 3>::identity();
   }
   void first(Mat<T, n>& psi_F, T& psi_theta) const {
     psi_F = law_.isochoric.first_piola(F_, X_);
@@ -170,9 +169,8 @@ struct MeanDilatation {
       DilatedTangent<T, n> psi = at(q).second();
       const Mat<T, n> G = transpose(inverse(cell_.F[q]));
       const T pJ = tangent_pressure_ * det(cell_.F[q]);
-      psi.FF += tangent_from<T, n>([&](int i, int J, int k, int L) {
-        return T(pJ * (G(i, J) * G(k, L) - G(i, L) * G(k, J)));
-      });
+      psi.FF += tangent_from<T, n>(
+          [&](int i, int J, int k, int L) { return T(pJ * (G(i, J) * G(k, L) - G(i, L) * G(k, J))); });
       return psi;
     }
     /// Pressure, the mean of psi_theta, after the linearised change dF of all deformation gradients.
@@ -198,9 +196,7 @@ struct MeanDilatation {
       return {law_, cell_.F[q], cell_.X[q], theta_};
     }
     /// dJ/dF = J F^-T.
-    [[nodiscard]] Mat<T, n> cofactor(int q) const {
-      return det(cell_.F[q]) * transpose(inverse(cell_.F[q]));
-    }
+    [[nodiscard]] Mat<T, n> cofactor(int q) const { return det(cell_.F[q]) * transpose(inverse(cell_.F[q])); }
 
     const Law& law_;
     const Cell& cell_;

@@ -52,7 +52,8 @@ struct SolidFields {
 /// \tparam Law a SolidLaw, \tparam Formulation Displacement or MeanDilatation, \tparam Coordinates Cartesian
 /// or Axisymmetric, \tparam lanes cells worked on together.
 template <ReferenceElement Element_, SolidLaw Law_, class Formulation_ = Displacement,
-          class Coordinates_ = Cartesian, class Rule_ = DefaultQuadrature<Element_>, int lanes = default_lanes>
+          class Coordinates_ = Cartesian, class Rule_ = DefaultQuadrature<Element_>,
+          int lanes = default_lanes>
 class SolidBody {
  public:
   using Element = Element_;
@@ -137,9 +138,7 @@ class SolidBody {
   template <class Sink>
   DeformationReport residual_and_robust_tangent(const SolidState& state, std::span<const double> u_before,
                                                 const StateSlopes& slopes, std::span<const int> cells,
-                                                Sink&& sink) const
-    requires(Formulation::mean_dilatation)
-  {
+                                                Sink&& sink) const requires(Formulation::mean_dilatation) {
     Unpacked out;
     return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
       const SolidCellData<Element, T> before = gather(batch, {u_before}), now = gather(batch, state);

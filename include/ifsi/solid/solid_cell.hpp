@@ -84,12 +84,11 @@ class SolidCell {
   /// Pressure (positive in tension) that the linearisation here predicts for the displacement u + du.
   ///
   /// A Newton step that rotates nearly incompressible material changes its volume by the square of the
-  /// rotation; the pressure of that spoils the next tangent. With the pressure predicted here in the geometric
-  /// part of that tangent (residual and solution are the same) the iteration is that of the mixed method with
-  /// the pressure as an unknown of its own, and converges over far larger steps.
+  /// rotation; the pressure of that spoils the next tangent. With the pressure predicted here in the
+  /// geometric part of that tangent (residual and solution are the same) the iteration is that of the mixed
+  /// method with the pressure as an unknown of its own, and converges over far larger steps.
   [[nodiscard]] T predicted_pressure(const std::array<Vec<T, dim>, n_nodes>& du) const
-    requires(mean_dilatation)
-  {
+      requires(mean_dilatation) {
     std::array<Mat<T, n>, n_points> dF;
     for (int q = 0; q < n_points; ++q) dF[q] = gradient(q, du);
     return Response(law_, deformation_).predicted_pressure(dF);
@@ -178,8 +177,7 @@ class SolidCell {
   }
 
   template <class Sink>
-  void residual_of_nodes(const Stresses& P, const SolidParameters<dim>& solid,
-                         Sink&& sink) const {
+  void residual_of_nodes(const Stresses& P, const SolidParameters<dim>& solid, Sink&& sink) const {
     std::array<Vec<T, dim>, n_points> b;
     for (int q = 0; q < n_points; ++q) b[q] = excess_mass(q, solid) * inertial_acceleration(q, solid);
     for (int a = 0; a < n_nodes; ++a) {
@@ -316,7 +314,8 @@ class SolidCell<Element, Law, Formulation, Coordinates, Rule, T>::Stiffness {
   }
 
   /// What couples the points of a cell through its mean dilatation theta:
-  /// K_ab += m_a (x) g_b + g_a (x) m_b + psi_theta_theta g_a (x) g_b, g = d theta/du, m = d2 psi/(du d theta).
+  /// K_ab += m_a (x) g_b + g_a (x) m_b + psi_theta_theta g_a (x) g_b, g = d theta/du, m = d2 psi/(du d
+  /// theta).
   struct Coupling {
     std::array<Vec<T, dim>, n_nodes> g, m;
     T psi_theta_theta;
