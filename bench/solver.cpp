@@ -144,9 +144,10 @@ void survey(Run& run, CsvFile& csv, const Choice& choice, const std::vector<doub
           csv.row({double(Element::dim), double(Element::order), c.unknowns, double(enclosed), Re, CFL,
                    double(c.report.iterations), double(c.report.converged), us * c.setup, us * c.solve});
           char line[200];
-          std::snprintf(line, sizeof line, "%s %8.0f %-8s Re %5g CFL %5g: %3d%s iterations, us/unknown %6.2f + %6.2f",
-                        Element::name, c.unknowns, enclosed ? "enclosed" : "open", Re, CFL, c.report.iterations,
-                        c.report.converged ? "" : " (not converged)", us * c.setup, us * c.solve);
+          std::snprintf(
+              line, sizeof line, "%s %8.0f %-8s Re %5g CFL %5g: %3d%s iterations, us/unknown %6.2f + %6.2f",
+              Element::name, c.unknowns, enclosed ? "enclosed" : "open", Re, CFL, c.report.iterations,
+              c.report.converged ? "" : " (not converged)", us * c.setup, us * c.solve);
           run.log(choice.verbose ? line + (" | " + c.preconditioner) : line);
           worst = std::max(worst, c.report.iterations);
         }
@@ -174,9 +175,16 @@ int main(int argc, char** argv) {
     run.params.add("full", full, "-", "a million unknowns as well");
     run.params.add("verbose", choice.verbose, "-", "say what the preconditioner consists of");
     run.parse();
-    CsvFile csv = run.csv("solver.csv", {{"dim", "-"}, {"order", "-"}, {"unknowns", "-"}, {"enclosed", "-"},
-                                         {"Re", "-"}, {"CFL", "-"}, {"iterations", "-"}, {"converged", "-"},
-                                         {"setup", "us/unknown"}, {"solve", "us/unknown"}});
+    CsvFile csv = run.csv("solver.csv", {{"dim", "-"},
+                                         {"order", "-"},
+                                         {"unknowns", "-"},
+                                         {"enclosed", "-"},
+                                         {"Re", "-"},
+                                         {"CFL", "-"},
+                                         {"iterations", "-"},
+                                         {"converged", "-"},
+                                         {"setup", "us/unknown"},
+                                         {"solve", "us/unknown"}});
     const auto plane = !sizes.empty() ? sizes : full ? std::vector{58., 182., 578.} : std::vector{58., 182.};
     const auto space = !sizes.empty() ? sizes : full ? std::vector{14., 26., 62.} : std::vector{14., 26.};
     if (element == "default" || element == "quad1") survey<Quad1>(run, csv, choice, plane);

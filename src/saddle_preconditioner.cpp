@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <variant>
 #include <vector>
 
 #include "ifsi/core/error.hpp"
 #include "ifsi/linalg/amg.hpp"
+#include "ifsi/linalg/direct.hpp"
 #include "ifsi/linalg/extract.hpp"
 #include "ifsi/linalg/flush_denormals.hpp"
 #include "ifsi/linalg/ilu.hpp"
+static double env(const char* n, double d) {
+  const char* e = getenv(n);
+  return e ? atof(e) : d;
+}
 
 namespace ifsi {
 
@@ -30,6 +36,10 @@ class SaddlePreconditioner<B>::Impl {
                   "preconditioner: the Schur parts do not have the pattern of the matrix");
     pattern_ = K.shared_pattern();
     viscous_number_ = parts.viscous_number;
+    if (env("XV", 0) > 0) {
+      A_ = extract_diagonal_part<dim>(K, 0);
+      exact_.factor(A_);
+    }
     update_velocity(K);
     update_gradient(K);
     update_schur(K, parts);
@@ -84,16 +94,35 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   void update_schur(const BlockCsr<B>& K, const SchurParts& parts) {
-    inverse_mass_.resize(parts.mass.size());
-    for (std::size_t i = 0; i < parts.mass.size(); ++i) inverse_mass_[i] = 1 / parts.mass[i];
-    const auto& laplacian = parts.laplacian.values;
-    has_inertia_ = pattern_->layout.communicator().any(
-        std::any_of(laplacian.begin(), laplacian.end(), [](double value) { return value != 0; }));
-    if (!has_inertia_) return;
-    BlockCsr<1> S = extract_diagonal_part<1>(K, dim);
+    steady_ = parts.steady;
+    C_ = parts.convection;
+    W_ = extract_diagonal_part<1>(K, dim);
+    const double mode = env("XS", 1);
+    BlockCsr<1> S = W_;
+    if (mode >= 2 || steady_) S.set_zero();
+    keep_.assign(K.n_rows(), 1.0);
+    std::vector<double> theta(pattern_->layout.n_local(), 1.0);
+    for (int i = 0; i < K.n_rows(); ++i) {
+      const double l = *W_.at(W_.find(i, i)), n = *parts.laplacian.at(W_.find(i, i));
+      const double sigma = steady_ ? 0.0 : l / n;
+      theta[i] = 1 + sigma;
+      if (mode == 2) keep_[i] = std::max(0.05, 1 - sigma);
+    }
+    pattern_->layout.update_ghosts(theta.data());
+    for (int i = 0; i < K.n_rows(); ++i) {
+      if (mode == 0) {
+        for (int k = K.row_ptr()[i]; k < K.row_ptr()[i + 1]; ++k) *W_.at(k) = 0;
+      }
+      if (mode == 1) {
+        for (int k = K.row_ptr()[i]; k < K.row_ptr()[i + 1]; ++k)
+          *W_.at(k) *= std::sqrt(theta[i] * theta[K.cols()[k]]);
+      }
+      *W_.at(W_.find(i, i)) += parts.mass[i] * (mode == 1 ? theta[i] * theta[i] : 1.0);
+    }
+    local_.update(W_);
+    has_inertia_ = true;
     for (std::size_t k = 0; k < S.values.size(); ++k) S.values[k] += parts.laplacian.values[k];
     add_outlet_terms(K, parts, S);
-    // A spring on one pressure makes S regular and changes its solution by a constant only.
     if (options_.enclosed && pattern_->layout.first_global() == 0 && S.n_rows() > 0) *S.at(S.find(0, 0)) *= 2;
     schur_.setup(S);
   }
@@ -118,12 +147,16 @@ class SaddlePreconditioner<B>::Impl {
   /// z_p = M^-1 r_p + [L + N]^-1 r_p, ghosts included.
   void apply_schur(const double* r) {
     const int n = pattern_->n_rows();
+    const double convect = env("XC", 0);
     for (int i = 0; i < n; ++i) r_p_[i] = r[i * long{B} + dim];
-    if (has_inertia_)
-      schur_.apply(r_p_.data(), z_p_.data());
-    else
-      std::fill(z_p_.begin(), z_p_.end(), 0.0);
-    for (int i = 0; i < n; ++i) z_p_[i] += inverse_mass_[i] * r_p_[i];
+    schur_.apply(r_p_.data(), z_p_.data());
+    cz_.assign(z_p_.size(), 0.0);
+    f_.resize(n);
+    if (convect > 0) C_.apply(z_p_.data(), cz_.data());
+    for (int i = 0; i < n; ++i) f_[i] = static_cast<float>(keep_[i] * r_p_[i] + convect * cz_[i]);
+    local_.apply(f_.data(), f_.data());
+    if (steady_) std::fill(z_p_.begin(), z_p_.end(), 0.0);
+    for (int i = 0; i < n; ++i) z_p_[i] += f_[i];
     pattern_->layout.update_ghosts(z_p_.data());
   }
 
@@ -142,6 +175,13 @@ class SaddlePreconditioner<B>::Impl {
 
   /// z_v = A^-1 r_v
   void apply_velocity() {
+    if (env("XV", 0) > 0) {
+      wide_b_.assign(r_v_.begin(), r_v_.end());
+      wide_x_.resize(wide_b_.size());
+      exact_.apply(wide_b_.data(), wide_x_.data());
+      for (std::size_t i = 0; i < wide_x_.size(); ++i) z_v_[i] = static_cast<float>(wide_x_[i]);
+      return;
+    }
     if (const auto* amg = std::get_if<Amg>(&velocity_)) {
       wide_b_.assign(r_v_.begin(), r_v_.end());
       wide_x_.resize(wide_b_.size());
@@ -155,6 +195,13 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   SaddleOptions options_;
+  BlockCsr<dim> A_;
+  DirectSolver exact_;
+  BlockCsr<1> C_, W_;
+  BlockIlu<1> local_;
+  std::vector<float> f_;
+  std::vector<double> cz_, keep_;
+  bool steady_ = false;
   std::shared_ptr<const Pattern> pattern_;
   double viscous_number_ = 0;
   std::variant<BlockIlu<dim>, BlockGaussSeidel<dim>, Amg> velocity_;

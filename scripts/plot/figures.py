@@ -49,14 +49,13 @@ def spans_decades(table, columns):
     return len(values) > 0 and values.min() > 0 and values.max() > 1e4 * values.min()
 
 
-def against(run, name, panels):
-    """A figure of panels (label of x, label of y, curves); a curve is (x, y, label, format)."""
+def against(run, name, panels, scale="linear"):
+    """A figure of panels (label of x, label of y, curves); a curve is (x, y, label, format). scale: of both axes."""
     figure, axes = pyplot.subplots(1, len(panels), squeeze=False, figsize=(5 * len(panels), 3.8))
     for axis, (x_label, y_label, curves) in zip(axes[0], panels):
         for x, y, label, form in curves:
             axis.plot(x, y, form, label=label, markersize=4, markerfacecolor="none")
-        axis.set_xlabel(x_label)
-        axis.set_ylabel(y_label)
+        axis.set(xlabel=x_label, ylabel=y_label, xscale=scale, yscale=scale)
         axis.legend(fontsize=7)
     run.save(figure, name)
     pyplot.close(figure)
@@ -81,14 +80,15 @@ def orders(run, name, table, x, errors, order_of):
 
 
 def pareto(run, name, table, cost, error, by):
-    """Error over cost, one line for each value of the column `by`; the front of non-dominated points stands out."""
+    """Error over cost, a colour for each combination of the columns `by`; the front that no point beats in both."""
     figure, axis = pyplot.subplots(figsize=(6, 4.5))
-    for kind in dict.fromkeys(table[by]):
-        mine = table[by] == kind
-        order = numpy.argsort(table[cost][mine])
-        axis.loglog(table[cost][mine][order], table[error][mine][order], "o-", markersize=4, label=str(kind))
+    kinds = list(zip(*(table[column] for column in by)))
+    for kind in dict.fromkeys(kinds):
+        mine = numpy.array([k == kind for k in kinds])
+        label = ", ".join(f"{column} {value:g}" for column, value in zip(by, kind))
+        axis.loglog(table[cost][mine], table[error][mine], "o", markersize=4, label=label)
     front = non_dominated(table[cost], table[error])
-    axis.loglog(table[cost][front], table[error][front], color="0.6", linewidth=5, alpha=0.4, zorder=0)
+    axis.loglog(table[cost][front], table[error][front], color="0.6", linewidth=5, alpha=0.4, zorder=0, label="best")
     axis.set_xlabel(labelled(cost, table.units[cost]))
     axis.set_ylabel(labelled(error, table.units[error]))
     axis.legend(fontsize=7)

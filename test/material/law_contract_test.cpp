@@ -101,9 +101,8 @@ Vec<T, n> lifted(const Vec<double, n>& a) {
 
 using All = ::testing::Types<
     Case<NeoHookean, 2, 2>, Case<NeoHookean, 3, 3>, Case<NeoHookean, 3, 2>, Case<StVenantKirchhoff, 2, 2>,
-    Case<StVenantKirchhoff, 3, 3>, Case<StVenantKirchhoff, 3, 2>, Case<UncoupledNeoHookean, 2, 2>,
-    Case<UncoupledNeoHookean, 3, 3>, Case<UncoupledNeoHookean, 3, 2>, Case<MooneyRivlin, 2, 2>,
-    Case<MooneyRivlin, 3, 3>, Case<MooneyRivlin, 3, 2>, Case<Yeoh, 2, 2>, Case<Yeoh, 3, 3>,
+    Case<StVenantKirchhoff, 3, 3>, Case<UncoupledNeoHookean, 2, 2>, Case<UncoupledNeoHookean, 3, 3>,
+    Case<MooneyRivlin, 2, 2>, Case<MooneyRivlin, 3, 3>, Case<Yeoh, 2, 2>, Case<Yeoh, 3, 3>,
     Case<CircumferentialFibre, 2, 2>, Case<CircumferentialFibre, 3, 3>, Case<CircumferentialFibre, 3, 2>>;
 TYPED_TEST_SUITE(LawContract, All);
 

@@ -5,9 +5,9 @@
 #include <random>
 #include <variant>
 
+#include "ifsi/assembly/solid_body.hpp"
 #include "ifsi/element/elements.hpp"
 #include "ifsi/material/materials.hpp"
-#include "ifsi/solid/solid_body.hpp"
 
 namespace ifsi::testing {
 

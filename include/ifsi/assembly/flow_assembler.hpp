@@ -165,12 +165,13 @@ void FlowAssembler<Element, Model, Rule, lanes>::residual_and_tangent(const Flow
 template <class Element, class Model, class Rule, int lanes>
 SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFields& fields,
                                                                    const Parameters& fluid) const {
-  SchurParts parts{std::vector<double>(mesh_.nodes.n_owned(), 0.0), BlockCsr<1>(pattern_), 0.0};
-  const double inverse_rho_c = fluid.c_inertia > 0.0 ? 1.0 / (fluid.rho * fluid.c_inertia) : 0.0;
+  SchurParts parts{std::vector<double>(mesh_.nodes.n_owned(), 0.0), BlockCsr<1>(pattern_), 0.0,
+                   BlockCsr<1>(pattern_), fluid.c_inertia == 0.0};
+  const double inverse_rho_c = fluid.c_inertia > 0.0 ? 1.0 / (fluid.rho * fluid.c_inertia) : 1.0 / fluid.rho;
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
     for (int q = 0; q < Rule::n; ++q) {
       const auto& point = kernel.point(q);
-      const T mass = point.JxW() / (point.mu() + point.rho_tau_C());
+      const T mass = point.JxW() / (2.0 * point.mu() + point.rho_tau_C());
       const T trace_G = fluid.rho / (point.rho_tau_C() * point.tau_M());
       for (int a = 0; a < n; ++a) {
         add_at_node(batch, a, BasisTable<Element, Rule>::N[q][a] * mass, parts.mass);
@@ -178,6 +179,13 @@ SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFie
           add_at_pair(batch, a, b,
                       inverse_rho_c * point.JxW() * dot(kernel.trial(a, q).grad, kernel.trial(b, q).grad),
                       parts.laplacian);
+        for (int b = 0; b < n; ++b)
+          add_at_pair(
+              batch, a, b,
+              BasisTable<Element, Rule>::N[q][a] * mass *
+                  (kernel.trial(b, q).D - fluid.rho * fluid.c_inertia * BasisTable<Element, Rule>::N[q][b]) *
+                  inverse_rho_c,
+              parts.convection);
       }
       for (int l = 0; l < batch.n_cells; ++l)
         parts.viscous_number =

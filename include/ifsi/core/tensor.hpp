@@ -76,6 +76,12 @@ struct Mat {
   }
 };
 
+template <class T, int r, int c>
+constexpr void copy(const Mat<T, r, c>& from, Mat<T, r, c>& to) {
+  IFSI_UNROLL
+  for (int k = 0; k < r * c; ++k) to.data[k] = from.data[k];
+}
+
 template <class T, int n>
 constexpr Vec<T, n> operator+(Vec<T, n> a, const Vec<T, n>& b) {
   return a += b;

@@ -103,8 +103,7 @@ class FlowCell {
         if constexpr (!constant_gradients)
           points_[q].add_tangent_of_gradients(tests[q], trials_[b][q], K, diagonal);
       }
-      if constexpr (constant_gradients)
-        points_[0].add_tangent_of_gradients(sum, trials_[b][0], K, diagonal);
+      if constexpr (constant_gradients) points_[0].add_tangent_of_gradients(sum, trials_[b][0], K, diagonal);
       IFSI_UNROLL
       for (int i = 0; i < dim; ++i) K(i, i) += diagonal;
       tangent(a, b, K);

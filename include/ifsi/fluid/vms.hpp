@@ -90,7 +90,10 @@ class VmsPoint {
   VmsPoint() = default;
 
   [[gnu::always_inline]] VmsPoint(const FlowPoint<T, dim>& x, const Parameters& fluid)
-      : v_(x.v), lap_v_(x.lap_v), grad_v_(x.grad_v), JxW_(x.JxW), rho_(fluid.rho) {
+      : JxW_(x.JxW), rho_(fluid.rho) {
+    copy(x.v, v_);
+    copy(x.lap_v, lap_v_);
+    copy(x.grad_v, grad_v_);
     set_strain(x, fluid);
     Vec<T, dim> inertia = rho_ * x.acceleration;
     if constexpr (convection) inertia += rho_ * (grad_v_ * v_);
@@ -129,7 +132,7 @@ class VmsPoint {
     TestFunction<T, dim> a;
     a.N = JxW_ * b.N;
     const Vec<T, dim> grad = JxW_ * b.grad, tau_grad = tau_M_ * grad;
-    const Vec<T, dim> tau_grad_E = transpose(E_) * tau_grad;
+    const Vec<T, dim> tau_grad_E = times_E(tau_grad);
     copy(grad, a.div);
     if constexpr (axisymmetric) a.div[0] += a.N * inverse_r_;
     if constexpr (axisymmetric) a.hoop = 2.0 * mu_ * inverse_r_ * inverse_r_ * a.N;
@@ -139,7 +142,8 @@ class VmsPoint {
       const T advection = dot(advecting_v_, tau_grad);            // SUPG and Reynolds
       a.A = outer(fine_v_, tau_grad) - (tau_M_ * a.N) * grad_v_;  // Reynolds again, cross
       add_to_diagonal(a.A, advection);
-      a.B = outer(fine_v_, tau_grad_E - rho_ * grad) + a.N * value_slope_ + advection * E_;
+      a.B = outer(fine_v_, tau_grad_E - rho_ * grad) + a.N * value_slope_ + (rho_ * advection) * grad_v_;
+      if constexpr (axisymmetric) a.B(0, 0) += advection * E_rr_;
     } else {
       a.A = a.B = Mat<T, dim>::zero();
     }
@@ -249,10 +253,12 @@ class VmsPoint {
   /// E and value_slope: the derivatives with respect to the value of v.
   [[gnu::always_inline]] void set_linearisation(const Parameters& fluid) {
     rho_c_ = rho_ * fluid.c_inertia;
-    E_ = Mat<T, dim>::zero();
-    if constexpr (convection) E_ = rho_ * grad_v_;
-    if constexpr (axisymmetric) E_(0, 0) += mu_ * inverse_r_ * inverse_r_;
-    if constexpr (convection) value_slope_ = rho_ * grad_v_ - tau_M_ * (grad_v_ * E_);
+    if constexpr (axisymmetric) E_rr_ = mu_ * inverse_r_ * inverse_r_;
+    if constexpr (convection) {
+      Mat<T, dim> E = rho_ * grad_v_;
+      if constexpr (axisymmetric) E(0, 0) += E_rr_;
+      value_slope_ = rho_ * grad_v_ - tau_M_ * (grad_v_ * E);
+    }
   }
 
   /// (eq. 3): the factors of w and grad w, and of q and grad q, the quadrature weight included.
@@ -262,7 +268,7 @@ class VmsPoint {
     Mat<T, dim> flux = mu_ * two_eps_;
     add_to_diagonal(flux, isotropic);
     if constexpr (convection) {
-      source -= grad_v_ * tau_r;          // cross stress
+      source -= grad_v_ * tau_r;           // cross stress
       flux += outer(tau_r, advecting_v_);  // SUPG, Reynolds stress
     }
     if constexpr (axisymmetric) source[0] += inverse_r_ * (isotropic + 2.0 * mu_ * v_[0] * inverse_r_);
@@ -272,6 +278,14 @@ class VmsPoint {
     mass_flux_ = (JxW_ * k_p_over_rho_) * tau_r;  // PSPG
   }
 
+  /// x E, E = rho grad v + mu / r^2 e_r (x) e_r of dr_M = D I + N E (eq. 7).
+  [[nodiscard, gnu::always_inline]] Vec<T, dim> times_E(const Vec<T, dim>& x) const {
+    Vec<T, dim> y = Vec<T, dim>::zero();
+    if constexpr (convection) y = rho_ * (transpose(grad_v_) * x);
+    if constexpr (axisymmetric) y[0] += E_rr_ * x[0];
+    return y;
+  }
+
   /// Half the derivative of gamma_dot^2 with respect to the nodal velocity of a function.
   [[nodiscard, gnu::always_inline]] Vec<T, dim> shear_gradient(const TrialFunction<T, dim>& b) const {
     Vec<T, dim> g = two_eps_ * b.grad;
@@ -279,17 +293,18 @@ class VmsPoint {
     return g;
   }
 
-  Vec<T, dim> v_, lap_v_;
+  // In the order of use: first what every test function reads.
+  Mat<T, dim> grad_v_;
+  Mat<T, dim> value_slope_;           ///< rho grad v - tau_M grad v E: factor of N_a in B of (eq. 7)
   Vec<T, dim> fine_v_, advecting_v_;  ///< v' (eq. 2) and v + v'
-  Mat<T, dim> grad_v_, two_eps_;
-  Mat<T, dim> E_;            ///< of dr_M = D I + N E
-  Mat<T, dim> value_slope_;  ///< rho grad v - tau_M grad v E: factor of N_a in B of (eq. 7)
-  T JxW_;
+  T JxW_, tau_M_, mu_, rho_tau_C_, k_p_over_rho_;
   double rho_, rho_c_;
-  T mu_, slope_, tau_M_, rho_tau_C_, k_p_over_rho_, div_v_, inverse_r_;
   Vec<T, dim> momentum_source_, mass_flux_;
   Mat<T, dim> momentum_flux_;
   T mass_source_;
+  Vec<T, dim> v_, lap_v_;
+  Mat<T, dim> two_eps_;
+  T div_v_, slope_, inverse_r_, E_rr_;
 };
 
 }  // namespace ifsi

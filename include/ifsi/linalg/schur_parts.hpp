@@ -20,6 +20,8 @@ struct SchurParts {
   BlockCsr<1> laplacian;
   /// max over the cells of max(mu, mu_s) dt / (rho h^2): how far the velocity block is from a mass matrix.
   double viscous_number = 0;
+  BlockCsr<1> convection{};
+  bool steady = false;
 };
 
 /// Called when a preconditioner is renewed, and only then.

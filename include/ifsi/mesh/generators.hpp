@@ -6,5 +6,5 @@
 #include "ifsi/mesh/channel_with_cylinder.hpp"
 #include "ifsi/mesh/elevate.hpp"
 #include "ifsi/mesh/extrude.hpp"
-#include "ifsi/mesh/ring.hpp"
 #include "ifsi/mesh/pipe.hpp"
+#include "ifsi/mesh/ring.hpp"

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "ifsi/assembly/solid_body.hpp"
 #include "ifsi/coupling/solid_cells.hpp"
-#include "ifsi/solid/solid_body.hpp"
 #include "ifsi/time/generalized_alpha.hpp"
 
 namespace ifsi {

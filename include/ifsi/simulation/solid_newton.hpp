@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "ifsi/assembly/solid_body.hpp"
 #include "ifsi/linalg/direct.hpp"
-#include "ifsi/solid/solid_body.hpp"
 
 namespace ifsi {
 

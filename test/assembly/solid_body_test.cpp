@@ -86,8 +86,8 @@ class SolidBodyContract : public ::testing::Test {
     return nodal<dim>(body.mesh().points, [&](const Vec<double, dim>& X) { return H * X; });
   }
 };
-using Cases = ::testing::Types<Case<Tri2>, Case<Quad1>, Case<Quad2>, Case<Tet1>, Case<Hex1>,
-                               Case<Wedge1, MeanDilatation>, Case<Quad1, MeanDilatation, Axisymmetric>>;
+using Cases = ::testing::Types<Case<Tri2>, Case<Hex1>, Case<Wedge1, MeanDilatation>,
+                               Case<Quad1, MeanDilatation, Axisymmetric>>;
 TYPED_TEST_SUITE(SolidBodyContract, Cases);
 
 TYPED_TEST(SolidBodyContract, BatchesComputeWhatTheScalarKernelDoes) {
