@@ -22,8 +22,7 @@ struct Options {
 };
 
 template <class Element, class Exact>
-FlowProblem<Element> decay(Run& run, const Options& o, const Mesh<Element>& mesh, const Exact& exact,
-                           double dt) {
+FlowProblem<Element> decay(Run& run, const Options& o, const Mesh<Element>& mesh, const Exact& exact) {
   FlowBoundary<Element::dim> boundary;
   for (const std::string& side : mesh.boundary_names)
     boundary.velocity(side, [=](const auto& x, double t) { return exact.v(x, t); });

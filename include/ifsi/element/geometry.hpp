@@ -60,19 +60,23 @@ constexpr std::array<Vec<T, d>, n> physical_gradients(const std::array<Vec<S, d>
 
 /// Laplacians of N_a in x, with the curvature of the cell: since xi(x) bends,
 /// lap N_a = C : (H_a - sum_i dN_a/dx_i H_x_i), C = J^-1 J^-T, H = second derivatives in xi, H_x_i = sum_b
-/// X_b,i H_b.
-template <class S, class T, int d, std::size_t n>
+/// X_b,i H_b. \tparam zero_diagonal true for elements of order one, where d2N/dxi_k^2 = 0.
+template <bool zero_diagonal = false, class S, class T, int d, std::size_t n>
 constexpr std::array<T, n> physical_laplacians(const std::array<Mat<S, d>, n>& ddN,
                                                const std::array<Vec<T, d>, n>& grad_N,
                                                const std::array<Vec<T, d>, n>& X,
                                                const Mat<T, d>& J_inverse) {
-  const Mat<T, d> C = J_inverse * transpose(J_inverse);
+  const Mat<T, d> C = J_inverse * transpose(J_inverse), C_twice = 2.0 * C;
   std::array<T, n> lap_N;
   Vec<T, d> lap_x = Vec<T, d>::zero();
   for (std::size_t a = 0; a < n; ++a) {
     lap_N[a] = T(0.0);
     IFSI_UNROLL
-    for (int k = 0; k < d * d; ++k) lap_N[a] += ddN[a].data[k] * C.data[k];
+    for (int k = 0; k < d; ++k) {
+      if constexpr (!zero_diagonal) lap_N[a] += ddN[a](k, k) * C(k, k);
+      IFSI_UNROLL
+      for (int l = k + 1; l < d; ++l) lap_N[a] += ddN[a](k, l) * C_twice(k, l);
+    }
     lap_x += lap_N[a] * X[a];
   }
   for (std::size_t a = 0; a < n; ++a) lap_N[a] -= dot(grad_N[a], lap_x);

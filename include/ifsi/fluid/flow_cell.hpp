@@ -124,7 +124,7 @@ class FlowCell {
       basis.lap.fill(T(0.0));
       x.lap_v = Vec<T, dim>::zero();
     } else {
-      basis.lap = physical_laplacians(Table::ddN[q], basis.grad, cell.X, J_inv);
+      basis.lap = physical_laplacians<Element::order == 1>(Table::ddN[q], basis.grad, cell.X, J_inv);
       x.lap_v = interpolate(basis.lap, cell.v);
     }
   }

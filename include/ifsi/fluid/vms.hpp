@@ -244,9 +244,11 @@ class VmsPoint {
     const T nu = (1.0 / rho_) * mu_;
     T rate2 = fluid.tau_rate2 + fluid.C_I * nu * nu * inner(x.G, x.G);
     if constexpr (convection) rate2 += dot(v_, x.G * v_);
-    const T inverse_tau_M = sqrt(x.s * rate2);
-    tau_M_ = T(1.0) / inverse_tau_M;
-    rho_tau_C_ = rho_ * inverse_tau_M / trace(x.G);
+    rate2 = x.s * rate2;
+    const T trace_G = trace(x.G);
+    const T factor = T(1.0) / (sqrt(rate2) * trace_G);  // one division for both
+    tau_M_ = trace_G * factor;
+    rho_tau_C_ = rho_ * rate2 * factor;
     k_p_over_rho_ = (1.0 / rho_) * x.k_p;
   }
 
