@@ -19,18 +19,21 @@ int main(int argc, char** argv) {
       argc, argv, {"cavity", "lid-driven cavity, steady, beside Ghia et al. (1982)"}, [](Run& run) {
         double Re = 100.0;
         int n = 64;
+        double grading = 1.0;
         std::string element = "quad1", data = IFSI_DATA_DIR "/reference";
         FlowOptions options;
         options.newton.rtol = 1e-9;
         run.params.add("Re", Re, "-", "Reynolds number; the table knows 100, 400 and 1000", {1.0, 1000.0});
         run.params.add("mesh.n", n, "-", "cells per side", {4, 1024});
+        run.params.add("mesh.grading", grading, "-", "middle cell over wall cell", {0.1, 100.0});
         run.params.add_choice("mesh.element", element, {"quad1", "quad2", "tri1", "tri2"}, "element");
         run.params.add("data", data, "-", "folder of the reference tables");
         options.declare(run.params);
         run.parse();
 
         dispatch_element<Quad1, Quad2, Tri1, Tri2>(element, [&]<class Element>() {
-          const auto mesh = distribute(box<Element>({0.0, 0.0}, {1.0, 1.0}, {n, n}), run.comm());
+          const Axis axis = symmetric_axis(0.0, 1.0, n, grading);
+          const auto mesh = distribute(box<Element>({axis, axis}), run.comm());
           FlowBoundary<2> boundary;
           boundary.velocity("top", [](const auto&, double) { return Vec<double, 2>{1.0, 0.0}; });
           for (const char* side : {"left", "right", "bottom"}) boundary.no_slip(side);
