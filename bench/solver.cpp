@@ -68,7 +68,8 @@ FlowBoundary<dim> boundary(const std::vector<std::string>& sides, bool enclosed)
   return conditions;
 }
 
-/// The tangent and residual of a backward Euler step from rest to the velocity above.
+/// Tangent and residual within a time step of generalized-alpha, or of the steady flow, at the velocity
+/// above.
 template <class Element>
 struct Step {
   static constexpr int dim = Element::dim, B = dim + 1;
@@ -81,8 +82,11 @@ struct Step {
         R(u) {
     fluid.rheology = Newtonian{1.0 / flow.Re};
     fluid.C_I = Element::order == 1 ? 36.0 : 60.0;
-    fluid.c_inertia = flow.CFL > 0.0 ? n / flow.CFL : 0.0;
-    fluid.tau_rate2 = 4.0 * fluid.c_inertia * fluid.c_inertia;
+    if (flow.CFL > 0.0) {
+      const double dt = flow.CFL / n;
+      fluid.c_inertia = GeneralizedAlpha::from_rho_inf(0.5).c_inertia(dt);
+      fluid.tau_rate2 = 4.0 / (dt * dt);
+    }
     const auto x = mesh.node_coordinates();
     for (std::size_t node = 0; node < x.size(); ++node)
       for (int i = 0; i < dim; ++i) {

@@ -6,7 +6,6 @@
 #include <_hypre_parcsr_ls.h>
 
 #include <sstream>
-#include <cstdlib>
 #include <vector>
 
 #include "ifsi/core/error.hpp"
@@ -152,14 +151,7 @@ class Amg::Impl {
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, gauss, 3);
     HYPRE_BoomerAMGSetMaxCoarseSize(solver_, 40);
     HYPRE_BoomerAMGSetNumFunctions(solver_, block_);
-    if (block_ > 1 && getenv("AT")) HYPRE_BoomerAMGSetStrongThreshold(solver_, atof(getenv("AT")));
-    if (block_ > 1 && getenv("AA")) HYPRE_BoomerAMGSetAggNumLevels(solver_, atoi(getenv("AA")));
-    if (block_ > 1 && getenv("AC")) HYPRE_BoomerAMGSetMaxIter(solver_, atoi(getenv("AC")));
-    if (block_ > 1 && getenv("AS")) HYPRE_BoomerAMGSetNumSweeps(solver_, atoi(getenv("AS")));
-    if (block_ > 1 && getenv("AN")) HYPRE_BoomerAMGSetNodal(solver_, atoi(getenv("AN")));
-    if (block_ > 1 && getenv("AI")) HYPRE_BoomerAMGSetInterpType(solver_, atoi(getenv("AI")));
-    if (block_ > 1 && getenv("AR")) { HYPRE_BoomerAMGSetCycleRelaxType(solver_, atoi(getenv("AR")), 1); HYPRE_BoomerAMGSetCycleRelaxType(solver_, atoi(getenv("AR2")), 2); }
-    if (block_ > 1 && getenv("AF")) HYPRE_BoomerAMGSetFilterFunctions(solver_, 1);
+    if (block_ > 1 && options_.nodal) HYPRE_BoomerAMGSetNodal(solver_, 1);
   }
 
   AmgOptions options_;

@@ -13,7 +13,7 @@ namespace ifsi {
 namespace {
 
 /// Most unknowns for which LU is the first choice, and for which it is at hand when GMRES fails.
-constexpr long direct_limit(int B) { return B == 3 ? 15'000 : 3'000; }
+constexpr long direct_limit(int B) { return B == 3 ? 150'000 : 3'000; }
 constexpr long fallback_limit(int B) { return B == 3 ? 400'000 : 40'000; }
 
 /// Removes the mean of the last component: the constant pressure.

@@ -71,6 +71,16 @@ TYPED_TEST(PackTest, MaxAndMinChooseInEachLane) {
   }
 }
 
+TYPED_TEST(PackTest, TransposeExchangesRowsAndLanes) {
+  constexpr int W = TypeParam::lanes;
+  TypeParam rows[W];
+  for (int i = 0; i < W; ++i)
+    for (int j = 0; j < W; ++j) rows[i].set(j, 10.0 * i + j);
+  transpose(rows);
+  for (int i = 0; i < W; ++i)
+    for (int j = 0; j < W; ++j) EXPECT_EQ(rows[i][j], 10.0 * j + i);
+}
+
 TYPED_TEST(PackTest, TensorsOfPacksAreTensorsInEachLane) {
   Mat<TypeParam, 3> packed;
   for (int k = 0; k < 9; ++k) packed.data[k] = this->sample(k % 4 == 0 ? 5.0 : 0.1 * k);

@@ -77,55 +77,72 @@ class FlowAssembler {
 
   [[nodiscard]] FlowCellData<Element, T> gather(const Batch& batch, const FlowFields& fields) const {
     FlowCellData<Element, T> data;
-    for (int l = 0; l < lanes; ++l) {
-      const int c = batch.cell[l];
-      for (int a = 0; a < n; ++a) {
-        const int node = mesh_.cells[c][a];
-        const auto& X = mesh_.points[mesh_.cell_points[c][a]];
-        for (int i = 0; i < dim; ++i) {
-          data.X[a][i].set(l, X[i]);
-          data.v[a][i].set(l, fields.u[node * B + i]);
-          data.v_dot[a][i].set(l, fields.u_dot[node * B + i]);
-          data.f[a][i].set(l, fields.f.empty() ? fields.gravity[i] : fields.f[node * dim + i]);
-        }
-        data.p[a].set(l, fields.u[node * B + dim]);
-        data.s[a].set(l, fields.s.empty() ? 1.0 : fields.s[node]);
-      }
-      data.k_p.set(l, fields.k_p.empty() ? 1.0 : fields.k_p[c]);
-    }
+    for (int a = 0; a < n; ++a)
+      for (int l = 0; l < lanes; ++l) gather_node(batch.cell[l], a, l, fields, data);
+    gather_scales(batch, fields, data);
     return data;
   }
 
-  void scatter_residual(const Batch& batch, int a, const Vec<T, B>& R_a, std::span<double> R) const {
+  void gather_node(int c, int a, int l, const FlowFields& fields, FlowCellData<Element, T>& data) const {
+    const int node = mesh_.cells[c][a];
+    const auto& X = mesh_.points[mesh_.cell_points[c][a]];
+    const double *u = &fields.u[node * B], *u_dot = &fields.u_dot[node * B];
+    for (int i = 0; i < dim; ++i) {
+      data.X[a][i].set(l, X[i]);
+      data.v[a][i].set(l, u[i]);
+      data.v_dot[a][i].set(l, u_dot[i]);
+    }
+    data.p[a].set(l, u[dim]);
+  }
+
+  /// Body force, s and k_p: constant when their fields are empty.
+  void gather_scales(const Batch& batch, const FlowFields& fields, FlowCellData<Element, T>& data) const {
+    for (int a = 0; a < n; ++a) {
+      for (int i = 0; i < dim; ++i) data.f[a][i] = T(fields.gravity[i]);
+      data.s[a] = T(1.0);
+    }
+    data.k_p = T(1.0);
+    for (int l = 0; l < lanes; ++l) {
+      const int c = batch.cell[l];
+      for (int a = 0; a < n && !fields.f.empty(); ++a)
+        for (int i = 0; i < dim; ++i) data.f[a][i].set(l, fields.f[mesh_.cells[c][a] * dim + i]);
+      for (int a = 0; a < n && !fields.s.empty(); ++a) data.s[a].set(l, fields.s[mesh_.cells[c][a]]);
+      if (!fields.k_p.empty()) data.k_p.set(l, fields.k_p[c]);
+    }
+  }
+
+  /// Where the rows of node a of the batch's cells begin in a field of `block` numbers per node; null for
+  /// nodes of other ranks and for repeated cells.
+  [[nodiscard]] std::array<double*, lanes> rows_of(const Batch& batch, int a, int block,
+                                                   double* field) const {
     std::array<double*, lanes> to{};
     for (int l = 0; l < batch.n_cells; ++l) {
       const int node = mesh_.cells[batch.cell[l]][a];
-      if (node < mesh_.nodes.n_owned()) to[l] = &R[node * B];
+      if (node < mesh_.nodes.n_owned()) to[l] = field + static_cast<std::size_t>(node) * block;
     }
-    add_lanes<B>(R_a.data, to.data());
+    return to;
   }
 
-  void scatter_block(const Batch& batch, int a, int b, const Mat<T, B>& K_ab, BlockCsr<B>& K) const {
+  /// The same for the blocks of the node pair (a, b) in a matrix.
+  template <int block>
+  [[nodiscard]] std::array<double*, lanes> blocks_of(const Batch& batch, int a, int b,
+                                                     BlockCsr<block>& K) const {
     std::array<double*, lanes> to{};
     for (int l = 0; l < batch.n_cells; ++l) {
-      const int block = blocks_[batch.cell[l]][a * n + b];
-      if (block >= 0) to[l] = K.at(block);
+      const int k = blocks_[batch.cell[l]][a * n + b];
+      if (k >= 0) to[l] = K.at(k);
     }
-    add_lanes<B * B>(K_ab.data, to.data());
+    return to;
   }
 
-  void add_at_node(const Batch& batch, int a, T value, std::vector<double>& to) const {
-    for (int l = 0; l < batch.n_cells; ++l) {
-      const int node = mesh_.cells[batch.cell[l]][a];
-      if (node < mesh_.nodes.n_owned()) to[node] += value[l];
-    }
-  }
-
-  void add_at_pair(const Batch& batch, int a, int b, T value, BlockCsr<1>& to) const {
-    for (int l = 0; l < batch.n_cells; ++l) {
-      const int block = blocks_[batch.cell[l]][a * n + b];
-      if (block >= 0) *to.at(block) += value[l];
-    }
+  /// Asks the memory for the blocks of row a, which the kernel computes next.
+  void prefetch_row(const Batch& batch, int a, const BlockCsr<B>& K) const {
+    constexpr int line = 8;  // doubles per cache line
+    for (int l = 0; l < batch.n_cells; ++l)
+      for (int b = 0; b < n; ++b) {
+        const double* block = K.at(std::max(0, blocks_[batch.cell[l]][a * n + b]));
+        for (int k = 0; k < B * B; k += line) __builtin_prefetch(block + k, 1);
+      }
   }
 
   const Mesh<Element>& mesh_;
@@ -144,7 +161,8 @@ void FlowAssembler<Element, Model, Rule, lanes>::residual(const FlowFields& fiel
                                                           std::span<double> R) const {
   std::fill_n(R.begin(), mesh_.nodes.n_owned() * B, 0.0);
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
-    kernel.residual([&](int a, const Vec<T, B>& R_a) { scatter_residual(batch, a, R_a, R); });
+    kernel.residual(
+        [&](int a, const Vec<T, B>& R_a) { add_lanes<B>(R_a.data, rows_of(batch, a, B, R.data()).data()); });
   });
 }
 
@@ -157,35 +175,40 @@ void FlowAssembler<Element, Model, Rule, lanes>::residual_and_tangent(const Flow
   K.set_zero();
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
     kernel.residual_and_tangent(
-        [&](int a, const Vec<T, B>& R_a) { scatter_residual(batch, a, R_a, R); },
-        [&](int a, int b, const Mat<T, B>& K_ab) { scatter_block(batch, a, b, K_ab, K); });
+        [&](int a, const Vec<T, B>& R_a) {
+          prefetch_row(batch, a, K);
+          add_lanes<B>(R_a.data, rows_of(batch, a, B, R.data()).data());
+        },
+        [&](int a, int b, const Mat<T, B>& K_ab) {
+          add_lanes<B * B>(K_ab.data, blocks_of(batch, a, b, K).data());
+        });
   });
 }
 
 template <class Element, class Model, class Rule, int lanes>
 SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFields& fields,
                                                                    const Parameters& fluid) const {
+  const bool steady = fluid.c_inertia == 0.0;
+  const double rho_c = fluid.rho * fluid.c_inertia, inverse_rho_c = 1.0 / (steady ? fluid.rho : rho_c);
   SchurParts parts{std::vector<double>(mesh_.nodes.n_owned(), 0.0), BlockCsr<1>(pattern_), 0.0,
-                   BlockCsr<1>(pattern_), fluid.c_inertia == 0.0};
-  const double inverse_rho_c = fluid.c_inertia > 0.0 ? 1.0 / (fluid.rho * fluid.c_inertia) : 1.0 / fluid.rho;
+                   BlockCsr<1>(pattern_), steady};
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
     for (int q = 0; q < Rule::n; ++q) {
       const auto& point = kernel.point(q);
+      const auto& N = BasisTable<Element, Rule>::N[q];
       const T mass = point.JxW() / (2.0 * point.mu() + point.rho_tau_C());
       const T trace_G = fluid.rho / (point.rho_tau_C() * point.tau_M());
       for (int a = 0; a < n; ++a) {
-        add_at_node(batch, a, BasisTable<Element, Rule>::N[q][a] * mass, parts.mass);
-        for (int b = 0; b < n; ++b)
-          add_at_pair(batch, a, b,
-                      inverse_rho_c * point.JxW() * dot(kernel.trial(a, q).grad, kernel.trial(b, q).grad),
-                      parts.laplacian);
-        for (int b = 0; b < n; ++b)
-          add_at_pair(
-              batch, a, b,
-              BasisTable<Element, Rule>::N[q][a] * mass *
-                  (kernel.trial(b, q).D - fluid.rho * fluid.c_inertia * BasisTable<Element, Rule>::N[q][b]) *
-                  inverse_rho_c,
-              parts.convection);
+        const auto grad_a = inverse_rho_c * point.JxW() * kernel.trial(a, q).grad;
+        const T mass_a = N[a] * mass;
+        add_lanes<1>(&mass_a, rows_of(batch, a, 1, parts.mass.data()).data());
+        for (int b = 0; b < n; ++b) {
+          const auto& trial = kernel.trial(b, q);
+          const T laplacian = dot(grad_a, trial.grad);
+          const T convection = inverse_rho_c * mass_a * (trial.D - rho_c * N[b]);
+          add_lanes<1>(&laplacian, blocks_of(batch, a, b, parts.laplacian).data());
+          add_lanes<1>(&convection, blocks_of(batch, a, b, parts.convection).data());
+        }
       }
       for (int l = 0; l < batch.n_cells; ++l)
         parts.viscous_number =
@@ -193,7 +216,7 @@ SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFie
     }
   });
   parts.viscous_number = mesh_.comm.max(parts.viscous_number);
-  if (fluid.c_inertia == 0.0) parts.viscous_number = std::numeric_limits<double>::infinity();
+  if (steady) parts.viscous_number = std::numeric_limits<double>::infinity();
   return parts;
 }
 

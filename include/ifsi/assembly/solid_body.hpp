@@ -3,11 +3,16 @@
 /// A solid body: its mesh, law and parameters, and the loops over its cells and faces.
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "ifsi/core/error.hpp"
 #include "ifsi/core/pack.hpp"
+#include "ifsi/element/elements.hpp"
+#include "ifsi/material/materials.hpp"
 #include "ifsi/mesh/global_mesh.hpp"
 #include "ifsi/mesh/names.hpp"
 #include "ifsi/solid/principal.hpp"
@@ -48,6 +53,14 @@ struct SolidFields {
   std::vector<double> cauchy, green_lagrange, principal, det_F;
 };
 
+/// What the loops over a body hand to their caller: R has dim numbers per node, K is made of dim x dim
+/// blocks, block (a, b) of nodes a, b from (a n + b) dim^2 on, everything row-major.
+using CellResidualSink = std::function<void(int cell, std::span<const double> R)>;
+using CellTangentSink = std::function<void(int cell, std::span<const double> R, std::span<const double> K)>;
+using FaceResidualSink = std::function<void(std::span<const int> nodes, std::span<const double> R)>;
+using FaceTangentSink =
+    std::function<void(std::span<const int> nodes, std::span<const double> R, std::span<const double> K)>;
+
 /// A deformable body on its own mesh, which every rank holds whole; work is shared by lists of cells.
 /// \tparam Law a SolidLaw, \tparam Formulation Displacement or MeanDilatation, \tparam Coordinates Cartesian
 /// or Axisymmetric, \tparam lanes cells worked on together.
@@ -67,11 +80,7 @@ class SolidBody {
 
   /// \throws Error (configuration) for densities or viscosities that are negative or not finite and for a
   /// periodic mesh; (file) for cells that are inside out, or points at r < 0 of a body of revolution.
-  SolidBody(std::string name, GlobalMesh<Element> mesh, Law law, Parameters solid)
-      : parameters(solid), name_(std::move(name)), mesh_(std::move(mesh)), law_(std::move(law)) {
-    check_parameters();
-    check_mesh();
-  }
+  SolidBody(std::string name, GlobalMesh<Element> mesh, Law law, Parameters solid);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const GlobalMesh<Element>& mesh() const { return mesh_; }
@@ -80,143 +89,41 @@ class SolidBody {
   [[nodiscard]] int n_dofs() const { return n_nodes() * dim; }
   [[nodiscard]] int n_cells() const { return mesh_.n_cells(); }
 
-  [[nodiscard]] std::vector<int> all_cells() const {
-    std::vector<int> cells(n_cells());
-    std::iota(cells.begin(), cells.end(), 0);
-    return cells;
-  }
+  [[nodiscard]] std::vector<int> all_cells() const;
   /// Number of a named boundary. \throws Error (configuration), with the nearest name, when there is none.
   [[nodiscard]] int boundary(const std::string& boundary_name) const {
     return find_name("boundary of solid '" + name_ + "'", boundary_name, mesh_.boundary_names);
   }
   /// Indices into mesh().boundary_faces.
-  [[nodiscard]] std::vector<int> faces_on(const std::string& boundary_name) const {
-    std::vector<int> faces;
-    const int wanted = boundary(boundary_name);
-    for (int f = 0; f < static_cast<int>(mesh_.boundary_faces.size()); ++f)
-      if (mesh_.boundary_faces[f].boundary == wanted) faces.push_back(f);
-    return faces;
-  }
+  [[nodiscard]] std::vector<int> faces_on(const std::string& boundary_name) const;
   /// Sorted nodes of a named boundary.
-  [[nodiscard]] std::vector<int> nodes_on(const std::string& boundary_name) const {
-    std::vector<int> nodes;
-    for (int f : faces_on(boundary_name)) {
-      const auto& face = mesh_.boundary_faces[f];
-      for (int a : Element::face_nodes(face.local_face)) nodes.push_back(mesh_.cells[face.cell][a]);
-    }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    return nodes;
-  }
+  [[nodiscard]] std::vector<int> nodes_on(const std::string& boundary_name) const;
 
-  /// Residual of method.md section 3 for each listed cell: sink(cell, R), R = n x dim numbers.
-  /// Cells that are inside out are reported and skipped.
-  template <class Sink>
-  DeformationReport residual(const SolidState& state, std::span<const int> cells, Sink&& sink) const {
-    alignas(64) double R[lanes][n_cell_dofs];
-    return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
-      kernel.residual(parameters, [&](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); });
-      for (int l = 0; l < batch.n_cells; ++l)
-        if (batch.sound[l]) sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs));
-    });
-  }
-
-  /// The same with the tangent, sink(cell, R, K): K = slopes.u dR/du + slopes.v dR/dv + slopes.a dR/da as
-  /// n x n blocks of dim x dim numbers, block (a, b) from (a n + b) dim^2 on, row-major both.
-  template <class Sink>
+  /// Residual (eq. 17) of each listed cell. Cells that are inside out are reported and skipped.
+  DeformationReport residual(const SolidState& state, std::span<const int> cells,
+                             const CellResidualSink& sink) const;
+  /// The same with the tangent K = slopes.u dR/du + slopes.v dR/dv + slopes.a dR/da.
   DeformationReport residual_and_tangent(const SolidState& state, const StateSlopes& slopes,
-                                         std::span<const int> cells, Sink&& sink) const {
-    Unpacked out;
-    return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
-      kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent());
-      out.send(batch, sink);
-    });
-  }
-
+                                         std::span<const int> cells, const CellTangentSink& sink) const;
   /// The same with a tangent that makes Newton's method robust over large steps of nearly incompressible
   /// bodies: see SolidCell::predicted_pressure. `u_before` is the displacement of the iteration before.
-  template <class Sink>
   DeformationReport residual_and_robust_tangent(const SolidState& state, std::span<const double> u_before,
                                                 const StateSlopes& slopes, std::span<const int> cells,
-                                                Sink&& sink) const requires(Formulation::mean_dilatation) {
-    Unpacked out;
-    return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
-      const SolidCellData<Element, T> before = gather(batch, {u_before}), now = gather(batch, state);
-      std::array<Vec<T, dim>, n> du;
-      for (int a = 0; a < n; ++a) du[a] = now.u[a] - before.u[a];
-      const T pressure = Kernel(before, law_).predicted_pressure(du);
-      kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent(), &pressure);
-      out.send(batch, sink);
-    });
-  }
+                                                const CellTangentSink& sink) const
+      requires(Formulation::mean_dilatation);
 
   /// Balances over the listed cells.
-  [[nodiscard]] SolidTotals<dim> totals(const SolidState& state, std::span<const int> cells) const {
-    SolidTotals<dim> sum;
-    sum.deformation = for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
-      const auto cell = kernel.totals(parameters);
-      for (int l = 0; l < batch.n_cells; ++l) {
-        if (!batch.sound[l]) continue;
-        sum.volume += cell.volume[l];
-        sum.reference_volume += cell.reference_volume[l];
-        sum.elastic_energy += cell.elastic[l];
-        sum.kinetic_energy += cell.kinetic[l];
-        for (int i = 0; i < dim; ++i) sum.momentum[i] += cell.momentum[i][l];
-      }
-    });
-    return sum;
-  }
+  [[nodiscard]] SolidTotals<dim> totals(const SolidState& state, std::span<const int> cells) const;
 
-  /// Dead traction (force per reference area) on the listed boundary faces: sink(nodes, R), external forces
-  /// with the sign of the residual, i.e. R = -force.
-  template <class Sink>
-  void add_traction(const Vec<double, dim>& traction, std::span<const int> faces, Sink&& sink) const {
-    for (int f : faces)
-      with_face(f, [&]<class Face>(const std::array<int, Face::n_nodes>& nodes) {
-        const auto r = SurfaceLoad<Face, Coordinates>::dead(positions(nodes, {}), traction);
-        sink(std::span<const int>(nodes), std::span<const double>(r.R[0].data, nodes.size() * dim));
-      });
-  }
-  /// Pressure that follows the surface (force per current area, inwards): sink(nodes, R, K), the blocks of K
-  /// as in residual_and_tangent.
-  template <class Sink>
+  /// Dead traction (force per reference area) on the listed boundary faces; R = -force.
+  void add_traction(const Vec<double, dim>& traction, std::span<const int> faces,
+                    const FaceResidualSink& sink) const;
+  /// Pressure that follows the surface (force per current area, inwards).
   void add_pressure(double pressure, std::span<const double> u, const StateSlopes& slopes,
-                    std::span<const int> faces, Sink&& sink) const {
-    for (int f : faces)
-      with_face(f, [&]<class Face>(const std::array<int, Face::n_nodes>& nodes) {
-        const auto r = SurfaceLoad<Face, Coordinates>::pressure(positions(nodes, u), pressure, slopes.u);
-        sink(std::span<const int>(nodes), std::span<const double>(r.R[0].data, nodes.size() * dim),
-             std::span<const double>(r.K[0][0].data, nodes.size() * nodes.size() * dim * dim));
-      });
-  }
+                    std::span<const int> faces, const FaceTangentSink& sink) const;
 
-  /// Stress and strain, averaged over the cells around each node with weights int N_a dV.
-  [[nodiscard]] SolidFields fields(std::span<const double> u) const {
-    SolidFields f{std::vector<double>(6 * n_nodes()), std::vector<double>(6 * n_nodes()),
-                  std::vector<double>(3 * n_nodes()), std::vector<double>(n_nodes())};
-    std::vector<double> weight(n_nodes());
-    for_each_batch({u}, all_cells(), [&](const Kernel& kernel, const Batch& batch) {
-      const auto sigma = kernel.cauchy_stresses();
-      for (int q = 0; q < Rule_::n; ++q) {
-        const Mat<T, 3> F = kernel.deformation_gradient(q);
-        const Mat<T, 3> E = T(0.5) * (transpose(F) * F - Mat<T, 3>::identity());
-        const T J = det(F), dV = kernel.reference_volume(q);
-        for (int l = 0; l < batch.n_cells; ++l)
-          for (int a = 0; a < n; ++a) {
-            const int node = mesh_.cells[batch.cell[l]][a];
-            const double w = std::abs(BasisTable<Element, Rule_>::N[q][a]) * dV[l];
-            weight[node] += w;
-            f.det_F[node] += w * J[l];
-            for (int s = 0; s < 6; ++s) {
-              f.cauchy[6 * node + s] += w * sigma[q](voigt[s][0], voigt[s][1])[l];
-              f.green_lagrange[6 * node + s] += w * E(voigt[s][0], voigt[s][1])[l];
-            }
-          }
-      }
-    });
-    finish(f, weight);
-    return f;
-  }
+  /// Stress and strain, averaged over the cells around each node with weights int |N_a| dV.
+  [[nodiscard]] SolidFields fields(std::span<const double> u) const;
 
  private:
   using T = Pack<lanes>;
@@ -249,21 +156,7 @@ class SolidBody {
     return report;
   }
 
-  [[nodiscard]] SolidCellData<Element, T> gather(const Batch& batch, const SolidState& state) const {
-    SolidCellData<Element, T> data;
-    for (int l = 0; l < lanes; ++l)
-      for (int a = 0; a < n; ++a) {
-        const int node = mesh_.cells[batch.cell[l]][a];
-        for (int i = 0; i < dim; ++i) {
-          const int dof = node * dim + i;
-          data.X[a][i].set(l, mesh_.points[node][i]);
-          data.u[a][i].set(l, state.u[dof]);
-          data.v[a][i].set(l, state.v.empty() ? 0.0 : state.v[dof]);
-          data.a[a][i].set(l, state.a.empty() ? 0.0 : state.a[dof]);
-        }
-      }
-    return data;
-  }
+  [[nodiscard]] SolidCellData<Element, T> gather(const Batch& batch, const SolidState& state) const;
 
   /// Lane l of m packs goes to the row of cell l, from `offset` on.
   template <int columns>
@@ -285,8 +178,7 @@ class SolidBody {
         unpack(K_ab.data, dim * dim, K, (a * n + b) * dim * dim);
       };
     }
-    template <class Sink>
-    void send(const Batch& batch, Sink&& sink) const {
+    void send(const Batch& batch, const CellTangentSink& sink) const {
       for (int l = 0; l < batch.n_cells; ++l)
         if (batch.sound[l])
           sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs),
@@ -324,57 +216,246 @@ class SolidBody {
     return x;
   }
 
-  void finish(SolidFields& f, const std::vector<double>& weight) const {
-    for (int a = 0; a < n_nodes(); ++a) {
-      if (weight[a] == 0) continue;
-      f.det_F[a] /= weight[a];
-      Mat<double, 3> sigma;
-      for (int s = 0; s < 6; ++s) {
-        f.green_lagrange[6 * a + s] /= weight[a];
-        f.cauchy[6 * a + s] /= weight[a];
-        sigma(voigt[s][0], voigt[s][1]) = sigma(voigt[s][1], voigt[s][0]) = f.cauchy[6 * a + s];
-      }
-      const auto values = principal_values(sigma);
-      std::copy(values.begin(), values.end(), f.principal.begin() + 3 * a);
-    }
-  }
-
-  void check_parameters() const {
-    const std::pair<const char*, double> not_negative[] = {{"rho_s", parameters.rho_s},
-                                                           {"rho_f", parameters.rho_f},
-                                                           {"mu_f", parameters.mu_f},
-                                                           {"mu_s", parameters.mu_s}};
-    for (const auto& [key, value] : not_negative)
-      if (!(value >= 0 && std::isfinite(value)))
-        throw Error(ExitCode::configuration, "solid '" + name_ + "': " + key + " = " + std::to_string(value) +
-                                                 ", expected a finite number >= 0");
-  }
-
-  void check_mesh() const {
-    if (!mesh_.point_node.empty())
-      throw Error(ExitCode::configuration, "solid '" + name_ + "': the mesh of a solid cannot be periodic");
-    if (mesh_.cells.empty()) throw Error(ExitCode::file, "solid '" + name_ + "': the mesh has no cells");
-    for (int c = 0; c < n_cells(); ++c) {
-      const auto X = mesh_.cell_coordinates(c);
-      for (int q = 0; q < Rule_::n; ++q) {
-        const double J = det(jacobian(BasisTable<Element, Rule_>::dN[q], X));
-        if (!(J > 0)) bad_cell(c, "is inside out: its Jacobian determinant is " + std::to_string(J));
-      }
-      if constexpr (Coordinates::axisymmetric)
-        for (const auto& x : X)
-          if (!(x[0] >= 0)) bad_cell(c, "of a body of revolution reaches r = " + std::to_string(x[0]));
-    }
-  }
-  [[noreturn]] void bad_cell(int c, const std::string& what) const {
-    std::string at;
-    for (double x : mesh_.points[mesh_.cells[c][0]].data) at += (at.empty() ? "" : ", ") + std::to_string(x);
-    throw Error(ExitCode::file,
-                "solid '" + name_ + "': cell " + std::to_string(c) + " at (" + at + ") " + what);
-  }
+  void finish(SolidFields& f, const std::vector<double>& weight) const;
+  void check_parameters() const;
+  void check_mesh() const;
+  [[noreturn]] void bad_cell(int c, const std::string& what) const;
 
   std::string name_;
   GlobalMesh<Element> mesh_;
   Law law_;
 };
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+SolidBody<E, Law, Form, Coords, Rule, lanes>::SolidBody(std::string name, GlobalMesh<Element> mesh, Law law,
+                                                        Parameters solid)
+    : parameters(solid), name_(std::move(name)), mesh_(std::move(mesh)), law_(std::move(law)) {
+  check_parameters();
+  check_mesh();
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+std::vector<int> SolidBody<E, Law, Form, Coords, Rule, lanes>::all_cells() const {
+  std::vector<int> cells(n_cells());
+  std::iota(cells.begin(), cells.end(), 0);
+  return cells;
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+std::vector<int> SolidBody<E, Law, Form, Coords, Rule, lanes>::faces_on(
+    const std::string& boundary_name) const {
+  std::vector<int> faces;
+  const int wanted = boundary(boundary_name);
+  for (int f = 0; f < static_cast<int>(mesh_.boundary_faces.size()); ++f)
+    if (mesh_.boundary_faces[f].boundary == wanted) faces.push_back(f);
+  return faces;
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+std::vector<int> SolidBody<E, Law, Form, Coords, Rule, lanes>::nodes_on(
+    const std::string& boundary_name) const {
+  std::vector<int> nodes;
+  for (int f : faces_on(boundary_name)) {
+    const auto& face = mesh_.boundary_faces[f];
+    for (int a : Element::face_nodes(face.local_face)) nodes.push_back(mesh_.cells[face.cell][a]);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+DeformationReport SolidBody<E, Law, Form, Coords, Rule, lanes>::residual(const SolidState& state,
+                                                                         std::span<const int> cells,
+                                                                         const CellResidualSink& sink) const {
+  alignas(64) double R[lanes][n_cell_dofs];
+  return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+    kernel.residual(parameters, [&](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); });
+    for (int l = 0; l < batch.n_cells; ++l)
+      if (batch.sound[l]) sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs));
+  });
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+DeformationReport SolidBody<E, Law, Form, Coords, Rule, lanes>::residual_and_tangent(
+    const SolidState& state, const StateSlopes& slopes, std::span<const int> cells,
+    const CellTangentSink& sink) const {
+  Unpacked out;
+  return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+    kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent());
+    out.send(batch, sink);
+  });
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+DeformationReport SolidBody<E, Law, Form, Coords, Rule, lanes>::residual_and_robust_tangent(
+    const SolidState& state, std::span<const double> u_before, const StateSlopes& slopes,
+    std::span<const int> cells, const CellTangentSink& sink) const requires(Formulation::mean_dilatation) {
+  Unpacked out;
+  return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+    const SolidCellData<Element, T> before = gather(batch, {u_before}), now = gather(batch, state);
+    std::array<Vec<T, dim>, n> du;
+    for (int a = 0; a < n; ++a) du[a] = now.u[a] - before.u[a];
+    const T pressure = Kernel(before, law_).predicted_pressure(du);
+    kernel.residual_and_tangent(parameters, slopes, out.residual(), out.tangent(), &pressure);
+    out.send(batch, sink);
+  });
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+auto SolidBody<E, Law, Form, Coords, Rule, lanes>::totals(const SolidState& state,
+                                                          std::span<const int> cells) const
+    -> SolidTotals<dim> {
+  SolidTotals<dim> sum;
+  sum.deformation = for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
+    const auto cell = kernel.totals(parameters);
+    for (int l = 0; l < batch.n_cells; ++l) {
+      if (!batch.sound[l]) continue;
+      sum.volume += cell.volume[l];
+      sum.reference_volume += cell.reference_volume[l];
+      sum.elastic_energy += cell.elastic[l];
+      sum.kinetic_energy += cell.kinetic[l];
+      for (int i = 0; i < dim; ++i) sum.momentum[i] += cell.momentum[i][l];
+    }
+  });
+  return sum;
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_traction(const Vec<double, dim>& traction,
+                                                                std::span<const int> faces,
+                                                                const FaceResidualSink& sink) const {
+  for (int f : faces)
+    with_face(f, [&]<class Face>(const std::array<int, Face::n_nodes>& nodes) {
+      const auto r = SurfaceLoad<Face, Coordinates>::dead(positions(nodes, {}), traction);
+      sink(std::span<const int>(nodes), std::span<const double>(r.R[0].data, nodes.size() * dim));
+    });
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_pressure(double pressure, std::span<const double> u,
+                                                                const StateSlopes& slopes,
+                                                                std::span<const int> faces,
+                                                                const FaceTangentSink& sink) const {
+  for (int f : faces)
+    with_face(f, [&]<class Face>(const std::array<int, Face::n_nodes>& nodes) {
+      const auto r = SurfaceLoad<Face, Coordinates>::pressure(positions(nodes, u), pressure, slopes.u);
+      sink(std::span<const int>(nodes), std::span<const double>(r.R[0].data, nodes.size() * dim),
+           std::span<const double>(r.K[0][0].data, nodes.size() * nodes.size() * dim * dim));
+    });
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+SolidFields SolidBody<E, Law, Form, Coords, Rule, lanes>::fields(std::span<const double> u) const {
+  SolidFields f{std::vector<double>(6 * n_nodes()), std::vector<double>(6 * n_nodes()),
+                std::vector<double>(3 * n_nodes()), std::vector<double>(n_nodes())};
+  std::vector<double> weight(n_nodes());
+  for_each_batch({u}, all_cells(), [&](const Kernel& kernel, const Batch& batch) {
+    const auto sigma = kernel.cauchy_stresses();
+    for (int q = 0; q < Rule::n; ++q) {
+      const Mat<T, 3> F = kernel.deformation_gradient(q);
+      const Mat<T, 3> strain = T(0.5) * (transpose(F) * F - Mat<T, 3>::identity());
+      const T J = det(F), dV = kernel.reference_volume(q);
+      for (int l = 0; l < batch.n_cells; ++l)
+        for (int a = 0; a < n; ++a) {
+          const int node = mesh_.cells[batch.cell[l]][a];
+          const double w = std::abs(BasisTable<Element, Rule>::N[q][a]) * dV[l];
+          weight[node] += w;
+          f.det_F[node] += w * J[l];
+          for (int s = 0; s < 6; ++s) {
+            f.cauchy[6 * node + s] += w * sigma[q](voigt[s][0], voigt[s][1])[l];
+            f.green_lagrange[6 * node + s] += w * strain(voigt[s][0], voigt[s][1])[l];
+          }
+        }
+    }
+  });
+  finish(f, weight);
+  return f;
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+auto SolidBody<E, Law, Form, Coords, Rule, lanes>::gather(const Batch& batch, const SolidState& state) const
+    -> SolidCellData<Element, T> {
+  SolidCellData<Element, T> data;
+  for (int l = 0; l < lanes; ++l)
+    for (int a = 0; a < n; ++a) {
+      const int node = mesh_.cells[batch.cell[l]][a];
+      for (int i = 0; i < dim; ++i) {
+        const int dof = node * dim + i;
+        data.X[a][i].set(l, mesh_.points[node][i]);
+        data.u[a][i].set(l, state.u[dof]);
+        data.v[a][i].set(l, state.v.empty() ? 0.0 : state.v[dof]);
+        data.a[a][i].set(l, state.a.empty() ? 0.0 : state.a[dof]);
+      }
+    }
+  return data;
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::finish(SolidFields& f,
+                                                          const std::vector<double>& weight) const {
+  for (int a = 0; a < n_nodes(); ++a) {
+    if (weight[a] == 0) continue;
+    f.det_F[a] /= weight[a];
+    Mat<double, 3> sigma;
+    for (int s = 0; s < 6; ++s) {
+      f.green_lagrange[6 * a + s] /= weight[a];
+      f.cauchy[6 * a + s] /= weight[a];
+      sigma(voigt[s][0], voigt[s][1]) = sigma(voigt[s][1], voigt[s][0]) = f.cauchy[6 * a + s];
+    }
+    const auto values = principal_values(sigma);
+    std::copy(values.begin(), values.end(), f.principal.begin() + 3 * a);
+  }
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::check_parameters() const {
+  const std::pair<const char*, double> not_negative[] = {{"rho_s", parameters.rho_s},
+                                                         {"rho_f", parameters.rho_f},
+                                                         {"mu_f", parameters.mu_f},
+                                                         {"mu_s", parameters.mu_s}};
+  for (const auto& [key, value] : not_negative)
+    if (!(value >= 0 && std::isfinite(value)))
+      throw Error(ExitCode::configuration, "solid '" + name_ + "': " + key + " = " + std::to_string(value) +
+                                               ", expected a finite number >= 0");
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::check_mesh() const {
+  if (!mesh_.point_node.empty())
+    throw Error(ExitCode::configuration, "solid '" + name_ + "': the mesh of a solid cannot be periodic");
+  if (mesh_.cells.empty()) throw Error(ExitCode::file, "solid '" + name_ + "': the mesh has no cells");
+  for (int c = 0; c < n_cells(); ++c) {
+    const auto X = mesh_.cell_coordinates(c);
+    for (int q = 0; q < Rule::n; ++q) {
+      const double J = det(jacobian(BasisTable<Element, Rule>::dN[q], X));
+      if (!(J > 0)) bad_cell(c, "is inside out: its Jacobian determinant is " + std::to_string(J));
+    }
+    if constexpr (Coordinates::axisymmetric)
+      for (const auto& x : X)
+        if (!(x[0] >= 0)) bad_cell(c, "of a body of revolution reaches r = " + std::to_string(x[0]));
+  }
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::bad_cell(int c, const std::string& what) const {
+  std::string at;
+  for (double x : mesh_.points[mesh_.cells[c][0]].data) at += (at.empty() ? "" : ", ") + std::to_string(x);
+  throw Error(ExitCode::file,
+              "solid '" + name_ + "': cell " + std::to_string(c) + " at (" + at + ") " + what);
+}
+
+// The bodies that scenes name are compiled once, in src/instantiate.
+extern template class SolidBody<Quad1, NeoHookean>;
+extern template class SolidBody<Quad1, StVenantKirchhoff>;
+extern template class SolidBody<Quad1, UncoupledNeoHookean>;
+extern template class SolidBody<Quad1, CircumferentialFibre>;
+extern template class SolidBody<Quad2, StVenantKirchhoff>;
+extern template class SolidBody<Quad1, UncoupledNeoHookean, MeanDilatation>;
+extern template class SolidBody<Quad1, UncoupledNeoHookean, MeanDilatation, Axisymmetric>;
+extern template class SolidBody<Hex1, UncoupledNeoHookean, MeanDilatation>;
+extern template class SolidBody<Wedge1, UncoupledNeoHookean, MeanDilatation>;
+extern template class SolidBody<Hex1, NeoHookean, MeanDilatation>;
+extern template class SolidBody<Wedge1, NeoHookean, MeanDilatation>;
 
 }  // namespace ifsi

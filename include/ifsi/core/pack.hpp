@@ -3,6 +3,8 @@
 /// W double lanes computed together: the number type of kernels that work on W cells at once.
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace ifsi {
 
@@ -72,5 +74,35 @@ struct Pack {
     return r;
   }
 };
+
+namespace detail {
+
+/// One step of a transposition: swaps the off-diagonal quarters of the 2s x 2s blocks in which rows x and y
+/// are s apart.
+template <int s, int W, std::size_t... k>
+inline void exchange(Pack<W>& x, Pack<W>& y, std::index_sequence<k...>) {
+  const auto low = __builtin_shufflevector(x.v, y.v, ((k & s) ? W + k - s : k)...);
+  const auto high = __builtin_shufflevector(x.v, y.v, ((k & s) ? W + k : k + s)...);
+  x.v = low;
+  y.v = high;
+}
+
+template <int s, int W>
+[[gnu::always_inline]] inline void transpose_from(Pack<W> (&rows)[W]) {
+  if constexpr (s < W) {
+#pragma GCC unroll 16
+    for (int i = 0; i < W; ++i)
+      if ((i & s) == 0) exchange<s>(rows[i], rows[i + s], std::make_index_sequence<W>());
+    transpose_from<2 * s>(rows);
+  }
+}
+
+}  // namespace detail
+
+/// Transposes W x W numbers in registers: lane j of row i becomes lane i of row j.
+template <int W>
+[[gnu::always_inline]] inline void transpose(Pack<W> (&rows)[W]) {
+  detail::transpose_from<1>(rows);
+}
 
 }  // namespace ifsi

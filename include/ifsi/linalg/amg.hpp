@@ -15,6 +15,8 @@ struct AmgOptions {
   int aggressive_levels = 1;
   int cycles = 1;       ///< V-cycles per application
   int max_per_row = 4;  ///< entries kept per row of the interpolation
+  /// Coarsens nodes (by the Frobenius norms of their blocks), not unknowns, where a node has several.
+  bool nodal = false;
 };
 
 /// x ~ A^-1 b by V-cycles from zero: HMIS coarsening, extended interpolation, l1-Gauss-Seidel forward on the

@@ -11,21 +11,20 @@
 namespace ifsi {
 
 struct SaddleOptions {
-  /// Approximate inverse of the velocity block: "ilu", "gauss_seidel", "amg", or "auto": ILU(0) up to
-  /// viscous_limit, AMG beyond.
+  /// Approximate inverse of the velocity block: "ilu", "gauss_seidel", "amg", or "auto": ILU(0) up to a
+  /// viscous number (SchurParts) near one, AMG beyond.
   std::string velocity = "auto";
-  double viscous_limit = 2.0;  ///< of SchurParts::viscous_number
-  bool enclosed = false;       ///< the pressure is known up to a constant
+  bool enclosed = false;  ///< the pressure is known up to a constant
 };
 
 /// For K = [A G; D L] with (v, p) of a node side by side:
 ///
-///     z_p = S^-1 r_p,              S^-1 = M^-1 + [L + N]^-1
+///     z_p = S^-1 r_p,              S^-1 = N^-1 + M^-1 ((1 - tau_M c) + C N^-1)
 ///     z_v = A^-1 (r_v - G z_p)
 ///
-/// with M the lumped pressure mass over viscosity and N the Laplacian of SchurParts, [L + N]^-1 by one
-/// V-cycle. Where velocity is free on a boundary S acts on constants, N does not: there N gets a Robin term
-/// (see add_outlet_terms). B = dim + 1. Rows of prescribed unknowns are diagonal rows.
+/// with M, N, C of SchurParts and N^-1 by one V-cycle; in steady flow S^-1 = M^-1 (1 + C N^-1). Where
+/// velocity is free on a boundary S acts on constants, N does not: there N gets a Robin term (see
+/// add_outlet_terms). B = dim + 1. Rows of prescribed unknowns are diagonal rows.
 template <int B>
 class SaddlePreconditioner {
  public:
