@@ -51,7 +51,8 @@ void open_valve(Run& run) {
   TipHistory history(run, problem, o, tip, "cm");
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });
   history.report(o.time.end / 3.0);
-  for (const std::string curve : {"ale", "m3"}) history.compare("open_valve_tip", curve);
+  for (const std::string curve : {"ale", "m3"})
+    history.compare(IFSI_DATA_DIR "/reference/open_valve_tip", curve);
   if (o.n[0] != 512 || o.time.end < 3.0) return;
   run.check("tip_dx_max", history.dx().max(1.0).value, 0.5775, 0.02, "Black et al. 2026, mesh M3");
   run.check("tip_dy_max", history.dy().max(1.0).value, 0.396, 0.02, "Black et al. 2026, mesh M3");

@@ -234,9 +234,8 @@ class TipHistory {
     run_.metric("constraint_max", constraint_, length_ + "/s");
     extremes_.report(run_);
   }
-  /// Root mean square differences to the curves data/reference/<name>_dx_<curve>.csv and _dy_.
-  void compare(const std::string& name, const std::string& curve) const {
-    const std::string file = std::string(IFSI_DATA_DIR) + "/reference/" + name;
+  /// Root mean square differences to the curves <file>_dx_<curve>.csv and <file>_dy_<curve>.csv.
+  void compare(const std::string& file, const std::string& curve) const {
     const double rms_x = rms_difference(dx_, file + "_dx_" + curve + ".csv", "dx_cm", 0.0, t_end_);
     const double rms_y = rms_difference(dy_, file + "_dy_" + curve + ".csv", "dy_cm", 0.0, t_end_);
     run_.metric("rms_dx_" + curve, rms_x, length_);
