@@ -215,7 +215,8 @@ SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFie
             std::max(parts.viscous_number, point.mu()[l] * trace_G[l] * inverse_rho_c / (4.0 * dim));
     }
   });
-  parts.viscous_number = mesh_.comm.max(parts.viscous_number);
+  constexpr int nodes_per_side2 = Element::order * Element::order;  // h is the distance of nodes
+  parts.viscous_number = nodes_per_side2 * mesh_.comm.max(parts.viscous_number);
   if (steady) parts.viscous_number = std::numeric_limits<double>::infinity();
   return parts;
 }

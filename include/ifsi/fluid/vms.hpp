@@ -246,9 +246,10 @@ class VmsPoint {
     if constexpr (convection) rate2 += dot(v_, x.G * v_);
     rate2 = x.s * rate2;
     const T trace_G = trace(x.G);
-    const T factor = T(1.0) / (sqrt(rate2) * trace_G);  // one division for both
+    const T inverse_tau_M = sqrt(rate2);
+    const T factor = T(1.0) / (inverse_tau_M * trace_G);  // one division for both
     tau_M_ = trace_G * factor;
-    rho_tau_C_ = rho_ * rate2 * factor;
+    rho_tau_C_ = rho_ * inverse_tau_M * inverse_tau_M * factor;
     k_p_over_rho_ = (1.0 / rho_) * x.k_p;
   }
 

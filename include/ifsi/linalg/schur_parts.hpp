@@ -23,7 +23,8 @@ struct SchurParts {
   /// N: int grad q . 1/(rho c [+ k_s]) grad p, same nodes as K; no boundary conditions. In steady flow 1/rho
   /// stands for 1/(rho c), a scale that the product C N^-1 does not show.
   BlockCsr<1> laplacian;
-  /// max over the cells of max(mu, mu_s) dt / (rho h^2): how far the velocity block is from a mass matrix.
+  /// max over the cells of max(mu, mu_s) dt / (rho h^2): how far the velocity block is from a mass
+  /// matrix. h is the distance of neighbouring nodes.
   double viscous_number = 0;
   /// C: int q rho/(m rho c) v . grad p, with the same 1/(rho c) as in N. Left empty: no convection.
   BlockCsr<1> convection{};
