@@ -24,6 +24,11 @@ fi
 exit ${PROGRAM_CODE:-0}"""
 
 
+def heed_interrupts():
+    """As at a terminal: programs in the background of a script are born deaf to Ctrl-C, and so are their children."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class Launcher(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -144,18 +149,20 @@ class Launcher(unittest.TestCase):
     def test_interrupt_asks_for_a_checkpoint(self):
         for ranks in ["1", "2"]:
             with subprocess.Popen([self.root / "ifsi", "run", "cylinder", "-n", ranks], stdout=subprocess.PIPE, text=True,
-                                  stderr=subprocess.PIPE, env=self.environment(WAIT_FOR_STOP="1")) as process:
+                                  stderr=subprocess.PIPE, env=self.environment(WAIT_FOR_STOP="1"),
+                                  preexec_fn=heed_interrupts) as process:
                 while process.stdout.readline() != "running\n":
                     pass
                 process.send_signal(signal.SIGINT)
                 process.communicate(timeout=20)
                 self.assertEqual(process.returncode, 6)
+            (self.root / "out" / "cylinder" / "STOP").unlink()
 
     def test_second_interrupt_ends_the_run(self):
         self.script("build/drivers/cylinder", "trap '' INT TERM; echo running; i=0; "
                                               "while [ $i -lt 200 ]; do sleep 0.05; i=$((i+1)); done")
         with subprocess.Popen([self.root / "ifsi", "run", "cylinder"], stdout=subprocess.PIPE, text=True,
-                              stderr=subprocess.PIPE, env=self.environment()) as process:
+                              stderr=subprocess.PIPE, env=self.environment(), preexec_fn=heed_interrupts) as process:
             while process.stdout.readline() != "running\n":
                 pass
             process.send_signal(signal.SIGINT)
