@@ -3,6 +3,7 @@
 /// A solid body: its mesh, law and parameters, and the loops over its cells and faces.
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -158,31 +159,49 @@ class SolidBody {
 
   [[nodiscard]] SolidCellData<Element, T> gather(const Batch& batch, const SolidState& state) const;
 
-  /// Lane l of m packs goes to the row of cell l, from `offset` on.
-  template <int columns>
-  static void unpack(const T* values, int m, double (*rows)[columns], int offset) {
-    for (int k = 0; k < m; ++k)
-      for (int l = 0; l < lanes; ++l) rows[l][offset + k] = values[k][l];
+  /// Lane l of `count` packs becomes row l. Whole registers go to memory, transposed: picking lanes out of
+  /// registers one by one is slow, and g++ 12 -O3 (SLP) has been seen to store stale values for it.
+  template <std::size_t count>
+  static void unpack(const std::array<T, count>& packs, double (*rows)[count]) {
+    constexpr std::size_t transposed = count / lanes * lanes;
+    for (std::size_t first = 0; first < transposed; first += lanes) {
+      T block[lanes];
+      for (int k = 0; k < lanes; ++k) block[k] = packs[first + k];
+      transpose(block);
+      for (int l = 0; l < lanes; ++l) std::memcpy(rows[l] + first, &block[l].v, sizeof block[l].v);
+    }
+    for (std::size_t k = transposed; k < count; ++k) {
+      double values[lanes];
+      std::memcpy(values, &packs[k].v, sizeof values);
+      for (int l = 0; l < lanes; ++l) rows[l][k] = values[l];
+    }
   }
 
-  /// Residuals and tangents of a batch, cell by cell.
+  /// Residuals and tangents of a batch, first in lanes, then cell by cell.
   struct Unpacked {
-    alignas(64) double R[lanes][n_cell_dofs];
-    alignas(64) double K[lanes][n_cell_dofs * n_cell_dofs];
+    std::array<T, n_cell_dofs> R;
+    std::array<T, n_cell_dofs * n_cell_dofs> K;
+    double R_rows[lanes][n_cell_dofs];
+    double K_rows[lanes][n_cell_dofs * n_cell_dofs];
 
     auto residual() {
-      return [this](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); };
+      return [this](int a, const Vec<T, dim>& R_a) { std::copy_n(R_a.data, dim, &R[a * dim]); };
     }
     auto tangent() {
       return [this](int a, int b, const Mat<T, dim>& K_ab) {
-        unpack(K_ab.data, dim * dim, K, (a * n + b) * dim * dim);
+        std::copy_n(K_ab.data, dim * dim, &K[(a * n + b) * dim * dim]);
       };
     }
-    void send(const Batch& batch, const CellTangentSink& sink) const {
+    void send(const Batch& batch, const CellResidualSink& sink) {
+      unpack(R, R_rows);
       for (int l = 0; l < batch.n_cells; ++l)
-        if (batch.sound[l])
-          sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs),
-               std::span<const double>(K[l], n_cell_dofs * n_cell_dofs));
+        if (batch.sound[l]) sink(batch.cell[l], R_rows[l]);
+    }
+    void send(const Batch& batch, const CellTangentSink& sink) {
+      unpack(R, R_rows);
+      unpack(K, K_rows);
+      for (int l = 0; l < batch.n_cells; ++l)
+        if (batch.sound[l]) sink(batch.cell[l], R_rows[l], K_rows[l]);
     }
   };
 
@@ -268,11 +287,10 @@ template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule
 DeformationReport SolidBody<E, Law, Form, Coords, Rule, lanes>::residual(const SolidState& state,
                                                                          std::span<const int> cells,
                                                                          const CellResidualSink& sink) const {
-  alignas(64) double R[lanes][n_cell_dofs];
+  Unpacked out;
   return for_each_batch(state, cells, [&](const Kernel& kernel, const Batch& batch) {
-    kernel.residual(parameters, [&](int a, const Vec<T, dim>& R_a) { unpack(R_a.data, dim, R, a * dim); });
-    for (int l = 0; l < batch.n_cells; ++l)
-      if (batch.sound[l]) sink(batch.cell[l], std::span<const double>(R[l], n_cell_dofs));
+    kernel.residual(parameters, out.residual());
+    out.send(batch, sink);
   });
 }
 
