@@ -20,13 +20,17 @@ namespace ifsi {
 
 struct FsiOptions {
   double rho_inf_solid = 0.0;  ///< beta and gamma of the solid's kinematics
-  double k_p = 0.01;           ///< scale of the PSPG term in cells that hold solid nodes (eq. 13)
-  StabilisationScale s;        ///< tau_M scale around the solid (eq. 4)
-  int patch_layers = 2;        ///< layers of fluid nodes around the cut cells that are solved for directly
+  /// Of C within a step: "frozen" at the predicted positions; "updated", at the present ones, but held in the
+  /// tangent; "exact", with its derivative (eq. 20).
+  std::string treatment = "frozen";
+  double k_p = 0.01;     ///< scale of the PSPG term in cells that hold solid nodes (eq. 13)
+  StabilisationScale s;  ///< tau_M scale around the solid (eq. 4)
+  int patch_layers = 2;  ///< layers of fluid nodes around the cut cells that are solved for directly
   PatchedSolverOptions linear;
 
   void declare(Parameters& params) {
     params.add("solid.rho_inf", rho_inf_solid, "-", "rho_inf of the solid's kinematics", {0.0, 1.0});
+    params.add_choice("coupling.treatment", treatment, {"frozen", "updated", "exact"}, "C within a step");
     params.add("coupling.k_p", k_p, "-", "scale of PSPG in cells that hold solid nodes", {0.0, 1.0});
     params.add("coupling.s_max", s.s_max, "-", "scale s of tau_M around the solid", {1.0, 1e9});
     params.add("coupling.s_rings", s.rings, "-", "layers of nodes beyond the cut cells with s = s_max",
@@ -38,10 +42,9 @@ struct FsiOptions {
   }
 };
 
-/// A flow with immersed bodies of one kind. C is built once per step at the predicted positions and used both
-/// to interpolate and to spread, so that power is conserved; nodal kinematics are recomputed from the fluid
-/// velocity in every iteration, so that the constraint holds to round-off. Mesh and problem are not copied:
-/// keep both in place.
+/// A flow with immersed bodies of one kind. The same C interpolates and spreads, so that power is conserved;
+/// nodal kinematics are recomputed from the fluid velocity in every iteration, so that the constraint holds
+/// to round-off. Mesh and problem are not copied: keep both in place.
 template <class Element, class Body, class Model = FluidModel<>>
 class FsiProblem : public FlowProblem<Element, Model> {
   using Flow = FlowProblem<Element, Model>;
@@ -49,6 +52,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
  public:
   using Flow::B, Flow::dim, Flow::mesh;
   using Point = typename Flow::Point;
+  using Block = Mat<double, Flow::dim>;
 
   /// \throws Error (configuration) when a body lies partly outside of the mesh without `may_protrude`.
   FsiProblem(const Mesh<Element>& mesh, FlowBoundary<Flow::dim> boundary, double rho,
@@ -106,6 +110,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
     if (report.converged) {
       this->close_step();
       solids_.end_step();
+    } else if (!settled_) {
+      report.failure += "; the positions of the solid nodes do not settle for this dt";
     } else if (!(min_det_F_ > 0.0)) {
       report.failure += "; solid cell " + std::to_string(worst_cell_) +
                         " is inverted, det F = " + std::to_string(min_det_F_);
@@ -145,7 +151,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   void assemble_tangent() { assemble(true); }
   BlockNorms relative_residual() {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    if (!(min_det_F_ > 0.0)) return {nan, nan};
+    if (!settled_ || !(min_det_F_ > 0.0)) return {nan, nan};
     const BlockNorms r = block_norms<Flow::B>(mesh().nodes, this->R_);
     const BlockNorms fluid = absolute_product_norms<Flow::B>(this->K_, this->state_.u);
     const auto ratio = [](double a, double b) { return a == 0.0 ? 0.0 : a / std::max(b, 1e-300); };
@@ -170,6 +176,11 @@ class FsiProblem : public FlowProblem<Element, Model> {
     this->k_p_.assign(mesh().n_cells(), 1.0);
     for (int c : cut_.cells()) this->k_p_[c] = fsi_.k_p;
     if (fsi_.s.s_max > 1.0) this->s_ = cut_.stabilisation(fsi_.s);
+    update_pattern();
+  }
+
+  /// The pattern of C K_s C^T, and the patch on it, if a node has changed its fluid cell.
+  void update_pattern() {
     if (!K_s_.update()) return;
     K_s_constrained_ = BlockCsr<Flow::B>(K_s_.matrix().shared_pattern());
     mask_s_.assign(K_s_constrained_.layout().n_local(), 0);
@@ -180,18 +191,55 @@ class FsiProblem : public FlowProblem<Element, Model> {
     patched_.set_patch(this->K_, K_s_constrained_, in_patch);
   }
 
+  /// v = C^T v_f at the nodes. Where C follows the nodes this is an equation for each of them, since the
+  /// place depends on the velocity: Newton's method, with P = (I - (du/dv) grad v)^-1 (eq. 20).
+  void move_solids() {
+    this->state_.new_velocities(new_v_);
+    settled_ = true;
+    if (fsi_.treatment == "frozen") return solids_.set_velocity(C_.velocities(new_v_.data(), Flow::B));
+    constexpr int max_iterations = 40, undamped = 10;
+    std::vector<Point> v = solids_.new_velocity();
+    for (int k = 0; k < max_iterations; ++k) {
+      solids_.set_velocity(v);
+      C_.locate(solids_.new_positions());
+      const auto v_f = C_.velocities(new_v_.data(), Flow::B);
+      const auto grad_v = C_.velocity_gradients(new_v_.data(), Flow::B);
+      double change = 0.0, largest = 0.0;  // squares of speeds
+      P_.resize(v.size());
+      for (std::size_t a = 0; a < v.size(); ++a) {
+        P_[a] = inverse(Block::identity() - solids_.slopes().u * grad_v[a]);
+        const Point dv = P_[a] * (v_f[a] - v[a]);
+        v[a] += (k < undamped ? 1.0 : 0.5) * dv;  // grad v jumps at facets: Newton may go to and fro there
+        change = std::max(change, dot(dv, dv));
+        largest = std::max(largest, dot(v[a], v[a]));
+      }
+      if (change <= 1e-24 * largest) return solids_.set_velocity(v);
+    }
+    settled_ = false;
+  }
+
+  void assemble_solids(bool tangent) {
+    const bool exact = fsi_.treatment == "exact";
+    if (tangent) update_pattern(), K_s_.set_zero();
+    R_s_.assign(solids_.n_nodes(), Point::zero());
+    const DeformationReport report =
+        solids_.assemble(K_s_.relevant_cells(), R_s_, tangent,
+                         [&](int i, const Block* K) { exact ? K_s_.add(i, K, P_) : K_s_.add(i, K); });
+    if (tangent && exact) {
+      // du at n + 1, where C is, for a change of the unknown, the velocity at n + alpha_f.
+      const double du_dv = solids_.slopes().u / solids_.alpha_f();
+      for (Block& P : P_) P = du_dv * P;
+      K_s_.add_spreading(R_s_, P_);
+    }
+    min_det_F_ = mesh().comm.min(report.min_det_F == report.min_det_F ? report.min_det_F : -1.0);
+    worst_cell_ = report.cell;
+  }
+
   void assemble(bool tangent) {
     Flow::assemble(tangent ? &this->K_ : nullptr);
     if (tangent) constrain_matrix<Flow::B>(this->system_.mask(), this->K_);
-    this->state_.new_velocities(new_v_);
-    solids_.set_velocity(C_.velocities(new_v_.data(), Flow::B));
-    R_s_.assign(solids_.n_nodes(), Point::zero());
-    if (tangent) K_s_.set_zero();
-    const DeformationReport report =
-        solids_.assemble(K_s_.relevant_cells(), R_s_, tangent,
-                         [&](int i, const Mat<double, Flow::dim>* K) { K_s_.add(i, K); });
-    min_det_F_ = mesh().comm.min(report.min_det_F == report.min_det_F ? report.min_det_F : -1.0);
-    worst_cell_ = report.cell;
+    move_solids();
+    assemble_solids(tangent);
     spread_.assign(this->R_.size(), 0.0);
     C_.spread(R_s_, spread_.data(), Flow::B);
     constrain_residual<Flow::B>(this->system_.mask(), mesh().n_owned_nodes(), spread_);
@@ -227,6 +275,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
   ConstraintMask mask_s_;  ///< of the layout of K_s
   PatchedSolver<Flow::B> patched_;
   std::vector<Point> R_s_;
+  std::vector<Block> P_;  ///< change of a node's velocity per change of the fluid's at its place (eq. 20)
+  bool settled_ = true;
   std::vector<double> new_v_, spread_;
   double min_det_F_ = 1.0, spread_norm_ = 0.0, c_of_patch_ = -1.0;
   int worst_cell_ = -1;

@@ -53,6 +53,11 @@ class ImmersedSolids {
     return x;
   }
   [[nodiscard]] std::vector<Point> positions() const { return predicted(0.0); }
+  /// Positions and velocities at n + 1 as the last set_velocity() left them.
+  [[nodiscard]] std::vector<Point> new_positions() const { return points(u_, X_); }
+  [[nodiscard]] std::vector<Point> new_velocity() const {
+    return points(v_, std::vector<Point>(X_.size(), Point::zero()));
+  }
 
   /// \param levels alpha_m and alpha_f of the fluid; \param rates beta and gamma of the solid.
   void begin_step(const GeneralizedAlpha& levels, const GeneralizedAlpha& rates, double dt) {
@@ -77,6 +82,7 @@ class ImmersedSolids {
       a_alpha_[k] = a_old_[k] + levels_.alpha_m * (a_[k] - a_old_[k]);
     }
   }
+  [[nodiscard]] double alpha_f() const { return levels_.alpha_f; }
   void end_step() { u_old_ = u_, v_old_ = v_, a_old_ = a_; }
 
   /// Residual (and tangent, when `matrix` takes it) of the listed cells: R is added to, `matrix(i, K)`
@@ -137,6 +143,12 @@ class ImmersedSolids {
   }
 
  private:
+  /// origin + x, dim numbers per node as points.
+  [[nodiscard]] static std::vector<Point> points(const std::vector<double>& x, std::vector<Point> origin) {
+    for (std::size_t k = 0; k < x.size(); ++k) origin[k / dim][k % dim] += x[k];
+    return origin;
+  }
+
   /// The part of a sorted list of cells that belongs to a body, in the body's numbers, and where it begins.
   [[nodiscard]] std::pair<std::vector<int>, std::size_t> cells_of(int body,
                                                                   std::span<const int> cells) const {
