@@ -8,6 +8,7 @@
 #include "ifsi/material/materials.hpp"
 #include "ifsi/mesh/distribute.hpp"
 #include "ifsi/mesh/generators.hpp"
+#include "ifsi/simulation/balances.hpp"
 #include "ifsi/simulation/fsi_problem.hpp"
 
 namespace ifsi {
@@ -185,6 +186,43 @@ TEST(FsiProblem, TangentIsTheDerivativeOfTheResidual) {
     EXPECT_LT(mesh.comm.max(error), 2e-4 * mesh.comm.max(size))
         << treatment << ", rho_inf of the solid " << rho_inf_solid;
   }
+}
+
+// The midpoint rule (rho_inf = 1) neither makes nor takes momentum or energy: what is missing from the
+// balances is the VMS terms' part, which is small, and dissipates.
+TEST(FsiProblem, BalancesOfMomentumAndEnergyClose) {
+  const auto mesh = channel_mesh(Communicator());
+  FlowOptions flow = flow_options();
+  flow.rho_inf = 1.0;
+  Probed problem(mesh, flow, fsi_options(1.0));
+  Balances balances(problem);
+  for (int k = 0; k < 5; ++k) {
+    ASSERT_TRUE(problem.step(0.01).converged);
+    const auto row = balances.observe(0.01);
+    const double power_in = row[0], loss = row[4], outflow = row[5];
+    const auto force = problem.supply().momentum;
+    EXPECT_GT(loss, 0.0);
+    EXPECT_LT(loss, 0.05 * power_in);
+    EXPECT_NEAR(outflow, 0.0, 1e-10);
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(row[6 + i], 0.0, 1e-3 * std::abs(force[0]));
+  }
+}
+
+// A node that ends far from where it was predicted: the step is refused, and nothing has changed.
+TEST(FsiProblem, AStepThatIsTooLargeIsRefused) {
+  const auto mesh = channel_mesh(Communicator());
+  FsiOptions fsi = fsi_options(0.0);
+  fsi.max_change = 1e-3;
+  Probed problem(mesh, flow_options(), fsi);
+  const StepReport report = problem.step(0.1);
+  EXPECT_FALSE(report.converged);
+  EXPECT_GT(report.change, 1.0);
+  EXPECT_NE(report.failure.find("fluid spacings from where it was predicted"), std::string::npos)
+      << report.failure;
+  EXPECT_EQ(problem.time(), 0.0);
+  const StepReport small = problem.step(1e-3);
+  EXPECT_TRUE(small.converged);
+  EXPECT_GT(small.change, 0.0);
 }
 
 }  // namespace

@@ -67,4 +67,27 @@ double boundary_flux(const Mesh<Element>& mesh, int boundary, std::span<const do
   return mesh.comm.sum(flux);
 }
 
+/// What a flow carries out of the mesh through a boundary per time, summed over the ranks.
+template <int dim>
+struct CarriedOut {
+  double kinetic_energy = 0.0;  ///< rho/2 |v|^2 v.n
+  Vec<double, dim> momentum{};  ///< rho v v.n
+};
+template <class Coordinates, class Element>
+CarriedOut<Element::dim> carried_out(const Mesh<Element>& mesh, int boundary, std::span<const double> u,
+                                     double rho) {
+  constexpr int dim = Element::dim;
+  std::array<double, dim + 1> sums{};
+  for_each_face_point<Coordinates>(mesh, boundary, true, [&](const FacePoint<dim>& q) {
+    const Vec<double, dim> v = face_velocity(q, u);
+    const double rho_vn = rho * dot(v, q.n_dA);
+    sums[dim] += 0.5 * dot(v, v) * rho_vn;
+    for (int i = 0; i < dim; ++i) sums[i] += v[i] * rho_vn;
+  });
+  mesh.comm.sum_in_place(sums.data(), dim + 1);
+  CarriedOut<dim> out{sums[dim], {}};
+  for (int i = 0; i < dim; ++i) out.momentum[i] = sums[i];
+  return out;
+}
+
 }  // namespace ifsi

@@ -58,6 +58,43 @@ template <class Coordinates, class Element>
   return volume;
 }
 
+/// Momentum and kinetic energy of a flow, and the rate at which viscosity dissipates it, summed over the
+/// ranks.
+template <int dim>
+struct FlowTotals {
+  Vec<double, dim> momentum{};
+  double kinetic = 0.0;      ///< rho/2 |v|^2 [energy]
+  double dissipation = 0.0;  ///< 2 mu eps : eps [energy/time]
+};
+
+/// \param u interleaved nodal velocity and pressure.
+template <class Coordinates, class Element, class Rheology>
+[[nodiscard]] FlowTotals<Element::dim> flow_totals(const Mesh<Element>& mesh, std::span<const double> u,
+                                                   double rho, const Rheology& rheology) {
+  constexpr int dim = Element::dim, B = dim + 1;
+  std::array<double, dim + 2> sums{};
+  for_each_cell_point<Coordinates, DefaultQuadrature<Element>>(mesh, true, [&](const CellPoint<Element>& q) {
+    auto v = Vec<double, dim>::zero();
+    auto grad_v = Mat<double, dim>::zero();
+    for (int a = 0; a < Element::n_nodes; ++a)
+      for (int i = 0; i < dim; ++i) {
+        const double v_ai = u[static_cast<std::size_t>(q.nodes[a]) * B + i];
+        v[i] += q.N[a] * v_ai;
+        for (int j = 0; j < dim; ++j) grad_v(i, j) += v_ai * q.grad_N[a][j];
+      }
+    const auto eps = 0.5 * (grad_v + transpose(grad_v));
+    double eps2 = inner(eps, eps);
+    if constexpr (Coordinates::axisymmetric) eps2 += (v[0] / q.x[0]) * (v[0] / q.x[0]);
+    for (int i = 0; i < dim; ++i) sums[i] += rho * v[i] * q.JxW;
+    sums[dim] += 0.5 * rho * dot(v, v) * q.JxW;
+    sums[dim + 1] += 2.0 * rheology.viscosity(2.0 * eps2) * eps2 * q.JxW;
+  });
+  mesh.comm.sum_in_place(sums.data(), dim + 2);
+  FlowTotals<dim> totals{{}, sums[dim], sums[dim + 1]};
+  for (int i = 0; i < dim; ++i) totals.momentum[i] = sums[i];
+  return totals;
+}
+
 /// Errors of an interleaved (velocity, pressure) field against an exact one, over all ranks.
 struct FlowErrors {
   double v_l2 = 0.0;  ///< L2 norm of the velocity error

@@ -119,6 +119,14 @@ class FlowProblem {
   /// Force of the fluid on a boundary (eq. 12) at time state().time_alpha(), of the last step.
   [[nodiscard]] Point force(const std::string& boundary) const { return system_.force(boundary, reaction_); }
 
+  /// What the surroundings give to the fluid at time state().time_alpha() of the last step (eq. 21).
+  [[nodiscard]] typename System::Supply supply() const {
+    return system_.supply(state_.u, reaction_, fluid_.rho, state_.time_alpha());
+  }
+  /// Momentum, kinetic energy and dissipation at the last completed level, and at state().time_alpha().
+  [[nodiscard]] FlowTotals<dim> totals() const { return totals(state_.velocity()); }
+  [[nodiscard]] FlowTotals<dim> totals_alpha() const { return totals(state_.u); }
+
   /// Writes and reads all that the scheme carries from step to step; any number of ranks may read.
   void save(CheckpointWriter& checkpoint) const {
     const auto scalars = state_.scalars();
@@ -183,6 +191,10 @@ class FlowProblem {
     const NewtonReport report = newton(*this, options_.newton, watch_);
     if (report.converged) close_step();
     return report;
+  }
+
+  [[nodiscard]] FlowTotals<dim> totals(std::span<const double> u) const {
+    return flow_totals<typename Model::Coordinates>(mesh(), u, fluid_.rho, fluid_.rheology);
   }
 
   [[nodiscard]] LinearSolverOptions linear_options() const {

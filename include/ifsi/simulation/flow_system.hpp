@@ -59,17 +59,40 @@ class FlowSystem {
       assembler_.residual_and_tangent(fields, fluid, R, *K);
     else
       assembler_.residual(fields, fluid, R);
-    for (const auto& h : boundary_.tractions())
-      add_traction<Coordinates>(
-          mesh_, mesh_.boundary(h.boundary), [&](const auto& x, const auto&) { return h.value(x, t); }, R);
-    for (const auto& p : boundary_.pressures()) {
-      const double value = p.value(t);
-      add_traction<Coordinates>(
-          mesh_, mesh_.boundary(p.boundary), [&](const auto&, const auto& n) { return -value * n; }, R);
-    }
+    add_tractions(t, R);
     for (const auto& outlet : boundary_.backflows())
       add_backflow<Coordinates>(mesh_, mesh_.boundary(outlet.boundary), outlet.beta * fluid.rho, fields.u, R,
                                 K);
+  }
+
+  /// What the surroundings give to the fluid per time: momentum (a force) and energy.
+  struct Supply {
+    Vec<double, dim> momentum{};
+    double energy = 0.0;
+  };
+  /// That of the prescribed velocities and the tractions, less what the flow carries out (eq. 21).
+  /// \param R residual before elimination, taken at u and time t.
+  [[nodiscard]] Supply supply(std::span<const double> u, std::span<const double> R, double rho,
+                              double t) const {
+    std::vector<double> T(R.size(), 0.0);
+    add_tractions(t, T);
+    std::array<double, dim + 1> sums{};
+    for (int node = 0; node < mesh_.n_owned_nodes(); ++node)
+      for (int i = 0; i < dim; ++i) {
+        const int k = node * B + i;
+        const double force = (mask_[node] >> i & 1 ? R[k] : 0.0) - T[k];
+        sums[i] += force;
+        sums[dim] += force * u[k];
+      }
+    mesh_.comm.sum_in_place(sums.data(), dim + 1);
+    Supply total{{}, sums[dim]};
+    for (int i = 0; i < dim; ++i) total.momentum[i] = sums[i];
+    for (std::size_t b = 0; b < mesh_.boundary_names.size(); ++b) {
+      const auto out = carried_out<Coordinates>(mesh_, static_cast<int>(b), u, rho);
+      total.energy -= out.kinetic_energy;
+      total.momentum -= out.momentum;
+    }
+    return total;
   }
 
   /// Parts of the pressure Schur complement at a state (eq. 14).
@@ -94,6 +117,18 @@ class FlowSystem {
     int profile;  ///< index into velocities, -1 for zero
     Vec<double, dim> x;
   };
+
+  /// Neumann terms -(w, h) at time t.
+  void add_tractions(double t, std::span<double> R) const {
+    for (const auto& h : boundary_.tractions())
+      add_traction<Coordinates>(
+          mesh_, mesh_.boundary(h.boundary), [&](const auto& x, const auto&) { return h.value(x, t); }, R);
+    for (const auto& p : boundary_.pressures()) {
+      const double value = p.value(t);
+      add_traction<Coordinates>(
+          mesh_, mesh_.boundary(p.boundary), [&](const auto&, const auto& n) { return -value * n; }, R);
+    }
+  }
 
   void check_complete() const {
     std::vector<bool> stated(mesh_.boundary_names.size(), false);

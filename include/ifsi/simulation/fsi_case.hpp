@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ifsi/material/materials.hpp"
+#include "ifsi/simulation/balances.hpp"
 #include "ifsi/simulation/flow_case.hpp"
 #include "ifsi/simulation/fsi_problem.hpp"
 #include "ifsi/simulation/probe.hpp"
@@ -190,6 +191,7 @@ class TipHistory {
         node_(node),
         length_(length),
         t_end_(o.time.end),
+        balances_(problem),
         pictures_(run, o.picture_every) {
     if (run.restarted()) pictures_.resume(problem.time());
     std::vector<Column> columns = {{"t", "s"},
@@ -200,7 +202,8 @@ class TipHistory {
                                    {"kinetic_energy", "energy/length"},
                                    {"det_f_min", "-"},
                                    {"dt", "s"}};
-    columns.insert(columns.end(), more.begin(), more.end());
+    for (const auto& further : {Balances<Problem>::columns(), more})
+      columns.insert(columns.end(), further.begin(), further.end());
     csv_ = run.csv("history.csv", columns, problem.time());
   }
 
@@ -219,7 +222,8 @@ class TipHistory {
                                totals.kinetic_energy,
                                totals.deformation.min_det_F,
                                dt};
-    row.insert(row.end(), more.begin(), more.end());
+    for (const auto& further : {balances_.observe(dt), more})
+      row.insert(row.end(), further.begin(), further.end());
     csv_.row(row);
     pictures_.write(problem_, t >= t_end_ * (1.0 - 1e-10));
   }
@@ -232,6 +236,7 @@ class TipHistory {
     run_.metric("tip_dx_min", dx_.min(t_from).value, length_);
     run_.metric("tip_dy_max", dy_.max(t_from).value, length_);
     run_.metric("constraint_max", constraint_, length_ + "/s");
+    run_.metric("energy_lost", balances_.lost_part());
     extremes_.report(run_);
   }
   /// Root mean square differences to the curves <file>_dx_<curve>.csv and <file>_dy_<curve>.csv.
@@ -250,6 +255,7 @@ class TipHistory {
   double t_end_, constraint_ = 0.0;
   Signal dx_, dy_;
   FsiExtremes extremes_;
+  Balances<Problem> balances_;
   FsiPictures pictures_;
   CsvFile csv_;
 };

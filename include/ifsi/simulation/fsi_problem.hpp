@@ -25,12 +25,17 @@ struct FsiOptions {
   std::string treatment = "frozen";
   double k_p = 0.01;     ///< scale of the PSPG term in cells that hold solid nodes (eq. 13)
   StabilisationScale s;  ///< tau_M scale around the solid (eq. 4)
+  /// A step is rejected when a solid node ends further than this from where it was predicted, in spacings of
+  /// the fluid's nodes: C, cut cells and s were taken at the prediction.
+  double max_change = 1.0;
   int patch_layers = 2;  ///< layers of fluid nodes around the cut cells that are solved for directly
   PatchedSolverOptions linear;
 
   void declare(Parameters& params) {
     params.add("solid.rho_inf", rho_inf_solid, "-", "rho_inf of the solid's kinematics", {0.0, 1.0});
     params.add_choice("coupling.treatment", treatment, {"frozen", "updated", "exact"}, "C within a step");
+    params.add("coupling.max_change", max_change, "-",
+               "largest distance of a solid node from its prediction, in fluid spacings", positive);
     params.add("coupling.k_p", k_p, "-", "scale of PSPG in cells that hold solid nodes", {0.0, 1.0});
     params.add("coupling.s_max", s.s_max, "-", "scale s of tau_M around the solid", {1.0, 1e9});
     params.add("coupling.s_rings", s.rings, "-", "layers of nodes beyond the cut cells with s = s_max",
@@ -98,7 +103,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   }
 
   /// One step; when the report says it did not converge nothing has changed.
-  NewtonReport step(double dt) {
+  StepReport step(double dt) {
     const auto scheme = GeneralizedAlpha::from_rho_inf(this->options_.rho_inf);
     const auto rates = GeneralizedAlpha::from_rho_inf(fsi_.rho_inf_solid);
     if (scheme.c_inertia(dt) != c_of_patch_) patched_.invalidate();
@@ -106,7 +111,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
     this->open_step(scheme, dt, false, false);
     solids_.begin_step(scheme, rates, dt);
     place_solids(dt);
-    NewtonReport report = newton(*this, this->options_.newton, this->watch_);
+    StepReport report = newton(*this, this->options_.newton, this->watch_);
+    if (report.converged) check_change(report, dt);
     if (report.converged) {
       this->close_step();
       solids_.end_step();
@@ -117,6 +123,23 @@ class FsiProblem : public FlowProblem<Element, Model> {
                         " is inverted, det F = " + std::to_string(min_det_F_);
     }
     return report;
+  }
+
+  /// Momentum and energy that the solids take from the fluid per time, at state().time_alpha() of the last
+  /// step (eq. 21).
+  [[nodiscard]] typename Flow::System::Supply taken_by_solids() const {
+    constexpr int dim = Flow::dim;
+    std::array<double, dim + 1> sums{};
+    for (int node = 0; node < mesh().n_owned_nodes(); ++node)
+      for (int i = 0; i < dim; ++i) {
+        const int k = node * Flow::B + i;
+        sums[i] += spread_[k];
+        sums[dim] += spread_[k] * this->state_.u[k];
+      }
+    mesh().comm.sum_in_place(sums.data(), dim + 1);
+    typename Flow::System::Supply taken{{}, sums[dim]};
+    for (int i = 0; i < dim; ++i) taken.momentum[i] = sums[i];
+    return taken;
   }
 
   void save(CheckpointWriter& checkpoint) const {
@@ -163,6 +186,22 @@ class FsiProblem : public FlowProblem<Element, Model> {
   }
 
  private:
+  /// How far nodes ended from their predicted places; too far is no step.
+  void check_change(StepReport& report, double dt) const {
+    const auto from = solids_.predicted(dt), to = solids_.new_positions();
+    int worst = 0;
+    for (int a = 0; a < solids_.n_nodes(); ++a) {
+      if (!C_.row(a).found()) continue;
+      const double change = length_in_cells(C_.row(a), to[a] - from[a]) / fsi_.max_change;
+      if (change > report.change) report.change = change, worst = a;
+    }
+    if (report.change <= 1.0) return;
+    report.converged = false;
+    report.failure =
+        "solid node " + std::to_string(worst) + " ends " + std::to_string(report.change * fsi_.max_change) +
+        " fluid spacings from where it was predicted; expected at most " + std::to_string(fsi_.max_change);
+  }
+
   [[nodiscard]] PatchedSolverOptions patched_options() const {
     PatchedSolverOptions o = fsi_.linear;
     o.enclosed = this->system_.enclosed();

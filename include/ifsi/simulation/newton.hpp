@@ -34,6 +34,14 @@ struct NewtonReport {
   std::string failure;  ///< what went wrong, empty when converged
 };
 
+/// What a time step reports: Newton's part, and how well the step followed its prediction.
+struct StepReport : NewtonReport {
+  StepReport(NewtonReport newton = {}) : NewtonReport(std::move(newton)) {}
+  /// Largest distance between the predicted and the final position of a solid node over the tolerated one;
+  /// 0 without solids. It measures the local error in time: the prediction is one order below the scheme.
+  double change = 0.0;
+};
+
 /// What Newton needs of a system: residual norms relative to the size of their terms, a linear solve to
 /// relative tolerances per block, and an update that can be taken back.
 template <class S>

@@ -17,6 +17,8 @@ struct TimeOptions {
   double dt = 0.01, end = 1.0;
   double dt_min_factor = 1e-3;    ///< dt may be cut to this part of what was asked for
   double checkpoint_every = 0.0;  ///< time between checkpoints; 0: only when stopped
+  bool adaptive = false;          ///< dt follows the change within a step
+  double dt_max = 0.0;            ///< adaptive steps stay below; 0: ten times dt
 
   void declare(Parameters& params) {
     params.add("time.dt", dt, "time", "time step", positive);
@@ -25,21 +27,30 @@ struct TimeOptions {
                {1e-9, 1.0});
     params.add("time.checkpoint_every", checkpoint_every, "time",
                "time between checkpoints (0: only when stopped)", non_negative);
+    params.add("time.adaptive", adaptive, "-", "dt follows the change within a step");
+    params.add("time.dt_max", dt_max, "time", "largest adaptive step (0: ten times dt)", non_negative);
   }
 };
 
-/// Halves the step when one fails, doubles it back towards the one asked for after eight good ones.
+/// Halves the step when one fails, doubles it back towards the one asked for after eight good ones. Adaptive
+/// steps start from the one asked for and aim at half of the tolerated change.
 class StepControl {
  public:
-  StepControl(double dt, double min_factor) : dt_(dt), nominal_(dt), min_(min_factor * dt) {}
+  explicit StepControl(const TimeOptions& time)
+      : dt_(time.dt), nominal_(time.dt), min_(time.dt_min_factor * time.dt) {
+    if (time.adaptive) max_ = time.dt_max > 0.0 ? time.dt_max : 10.0 * time.dt;
+  }
   /// The next step, so that `end` is met exactly and no crumb is left before it.
   [[nodiscard]] double next(double t, double end) const {
     const double left = end - t;
     const double n = std::max(1.0, std::ceil(left / dt_ - 1e-6));
     return n > 2.0 ? dt_ : left / n;
   }
-  void accepted() {
-    if (++good_ < 8 || dt_ == nominal_) return;
+  /// \param dt of the step. \param change see StepReport.
+  void accepted(double dt, double change) {
+    ++good_;
+    if (max_ > 0.0) return adapt(dt, change);
+    if (good_ < 8 || dt_ == nominal_) return;
     dt_ = std::min(2.0 * dt_, nominal_);
     good_ = 0;
   }
@@ -53,14 +64,24 @@ class StepControl {
   [[nodiscard]] int cuts() const { return cuts_; }
 
  private:
-  double dt_, nominal_, min_;
+  /// The change of a step is of third order in dt. A factorisation is worth a few steps: dt grows by no less
+  /// than a quarter, and not right after a cut.
+  void adapt(double dt, double change) {
+    const double factor = std::cbrt(0.5 / std::max(change, 1e-6));
+    if (factor < 1.0) dt_ = dt * std::max(factor, 0.5);
+    if (factor < 1.25 || good_ < 4) return;
+    dt_ = std::min(dt_ * std::min(factor, 2.0), max_);
+    good_ = 0;
+  }
+
+  double dt_, nominal_, min_, max_ = 0.0;
   int good_ = 0, cuts_ = 0;
 };
 
 /// A problem that steps in time: step(dt) leaves it unchanged when it does not converge.
 template <class P>
 concept TransientProblem = requires(P& p, CheckpointWriter& out, const Checkpoint& in) {
-  { p.step(0.1) } -> std::same_as<NewtonReport>;
+  { p.step(0.1) } -> std::convertible_to<StepReport>;
   { p.time() } -> std::convertible_to<double>;
   p.save(out);
   p.restore(in);
@@ -75,11 +96,11 @@ void march(Run& run, Problem& problem, const TimeOptions& time, Observe&& observ
     problem.save(checkpoint);
     return checkpoint.save(run.path(""), run.totals.steps);
   };
-  StepControl control(time.dt, time.dt_min_factor);
+  StepControl control(time);
   double next_checkpoint = problem.time() + time.checkpoint_every;
   while (problem.time() < time.end * (1.0 - 1e-10)) {
     const double t = problem.time(), dt = control.next(t, time.end);
-    const NewtonReport report = problem.step(dt);
+    const StepReport report = problem.step(dt);
     run.totals.newton += report.iterations;
     run.totals.gmres += report.gmres;
     if (!report.converged) {
@@ -90,7 +111,7 @@ void march(Run& run, Problem& problem, const TimeOptions& time, Observe&& observ
       control.rejected(t, report.failure);
       continue;
     }
-    control.accepted();
+    control.accepted(dt, report.change);
     ++run.totals.steps;
     observe(dt);
     char line[160];

@@ -1,0 +1,65 @@
+// The control of the time step: cuts, recovery, adaptive growth.
+#include <gtest/gtest.h>
+
+#include "ifsi/simulation/time_loop.hpp"
+
+namespace ifsi {
+namespace {
+
+TimeOptions options(bool adaptive) {
+  TimeOptions time;
+  time.dt = 0.01;
+  time.dt_min_factor = 0.1;
+  time.adaptive = adaptive;
+  time.dt_max = 0.05;
+  return time;
+}
+
+TEST(StepControl, CutsAndReturnsAfterEightGoodSteps) {
+  StepControl control(options(false));
+  control.rejected(0.0, "no reason");
+  EXPECT_DOUBLE_EQ(control.next(0.0, 1.0), 0.005);
+  for (int k = 0; k < 7; ++k) control.accepted(0.005, 0.0);
+  EXPECT_DOUBLE_EQ(control.next(0.0, 1.0), 0.005);
+  control.accepted(0.005, 0.0);
+  EXPECT_DOUBLE_EQ(control.next(0.0, 1.0), 0.01);
+  for (int k = 0; k < 20; ++k) control.accepted(0.01, 1e-9);
+  EXPECT_DOUBLE_EQ(control.next(0.0, 1.0), 0.01);  // never above what was asked for
+}
+
+TEST(StepControl, GivesUpWithTheReason) {
+  StepControl control(options(false));
+  try {
+    for (int k = 0; k < 10; ++k) control.rejected(0.3, "the sky is falling");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::nonlinear);
+    EXPECT_NE(std::string(error.what()).find("the sky is falling"), std::string::npos);
+  }
+}
+
+TEST(StepControl, MeetsTheEndWithoutACrumb) {
+  const StepControl control(options(false));
+  EXPECT_NEAR(control.next(0.995, 1.0), 0.005, 1e-12);
+  EXPECT_NEAR(control.next(0.985, 1.0), 0.0075, 1e-12);
+}
+
+// The change is of third order in dt: steps settle where it is half of the tolerated one.
+TEST(StepControl, AdaptiveStepsSettleAtHalfTheToleratedChange) {
+  StepControl control(options(true));
+  const auto change = [](double dt) { return std::pow(dt / 0.04, 3); };
+  double dt = 0.01;
+  for (int k = 0; k < 60; ++k) {
+    dt = control.next(0.0, 1e3);
+    control.accepted(dt, change(dt));
+  }
+  EXPECT_GT(change(dt), 0.2);
+  EXPECT_LT(change(dt), 0.6);
+  control.accepted(dt, 4.0);  // suddenly hard: at most halved
+  EXPECT_DOUBLE_EQ(control.next(0.0, 1e3), 0.5 * dt);
+  for (int k = 0; k < 200; ++k) control.accepted(control.next(0.0, 1e3), 0.0);
+  EXPECT_DOUBLE_EQ(control.next(0.0, 1e3), 0.05);  // dt_max
+}
+
+}  // namespace
+}  // namespace ifsi
