@@ -32,7 +32,7 @@ void closed_valve(Run& run) {
   boundary.no_slip("top"), boundary.no_slip("bottom");
 
   using Body = SolidBody<Quad1, NeoHookean>;
-  constexpr double half = 0.0106;
+  const double half = 0.5 * o.thickness;
   std::vector<Body> beam;
   beam.emplace_back("beam", box<Quad1>({2.0 - half, 0.0}, {2.0 + half, 1.0}, o.n_s),
                     NeoHookean(Lame::from_young(E, nu)), o.solid());

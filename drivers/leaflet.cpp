@@ -30,7 +30,8 @@ void leaflet(Run& run) {
   boundary.slip("top"), boundary.no_slip("bottom");
 
   using Body = SolidBody<Quad1, UncoupledNeoHookean>;
-  constexpr double half = 0.0106, height = 0.8;
+  constexpr double height = 0.8;
+  const double half = 0.5 * o.thickness;
   std::vector<Body> body;
   body.emplace_back("leaflet", box<Quad1>({x_0 - half, 0.0}, {x_0 + half, height}, o.n_s),
                     UncoupledNeoHookean(C0, kappa_ratio * C0), o.solid());

@@ -25,7 +25,8 @@ void open_valve(Run& run) {
   o.declare(run.params);
   run.parse();
 
-  constexpr double length = 8.0, height = 1.61, tip_y = height - 0.7, x_0 = 1.9788, x_1 = 2.0;
+  constexpr double length = 8.0, height = 1.61, tip_y = height - 0.7, x_1 = 2.0;
+  const double x_0 = x_1 - o.thickness;
   if (symmetry) o.n[1] /= 2;
   const auto mesh =
       distribute(box<Quad1>({0.0, symmetry ? 0.5 * height : 0.0}, {length, height}, o.n), run.comm());

@@ -17,11 +17,11 @@
 
 namespace ifsi {
 
-/// What the cases of a leaflet in a channel let a user choose. Densities of fluid and solid are equal.
+/// What the cases of a leaflet in a channel let a user choose.
 struct LeafletOptions {
   std::array<int, 2> n,
       n_s;  ///< fluid cells along and across the channel, solid cells through and along the leaflet
-  double rho = 100.0, mu = 10.0, picture_every = 0.1;
+  double rho = 100.0, mu = 10.0, density_ratio = 1.0, thickness = 0.0212, picture_every = 0.1;
   TimeOptions time;
   FlowOptions flow;
   FsiOptions fsi;
@@ -35,14 +35,16 @@ struct LeafletOptions {
     params.add("mesh.ny", n[1], "-", "fluid cells across the channel", {4, 1024});
     params.add("solid.n_thick", n_s[0], "-", "solid cells through the thickness", {1, 64});
     params.add("solid.n_high", n_s[1], "-", "solid cells along the leaflet", {4, 2000});
-    params.add("fluid.rho", rho, "mass/length^3", "density of fluid and solid", positive);
+    params.add("fluid.rho", rho, "mass/length^3", "density of the fluid", positive);
+    params.add("solid.density_ratio", density_ratio, "-", "density of the solid over the fluid's", positive);
+    params.add("solid.thickness", thickness, "length", "thickness of the leaflet", positive);
     params.add("fluid.mu", mu, "mass/(length time)", "dynamic viscosity", positive);
     params.add("output.every", picture_every, "time", "time between pictures", positive);
     time.declare(params), flow.declare(params), fsi.declare(params);
   }
   /// Parameters of a solid that displaces this fluid.
   [[nodiscard]] SolidParameters<2> solid() const {
-    return {.rho_s = rho, .rho_f = rho, .mu_f = mu, .mu_s = 0.0, .gravity = {}};
+    return {.rho_s = density_ratio * rho, .rho_f = rho, .mu_f = mu, .mu_s = 0.0, .gravity = {}};
   }
 };
 
@@ -235,6 +237,7 @@ class TipHistory {
     run_.metric("tip_dx_max", dx_.max(t_from).value, length_);
     run_.metric("tip_dx_min", dx_.min(t_from).value, length_);
     run_.metric("tip_dy_max", dy_.max(t_from).value, length_);
+    run_.metric("tip_dx_end", dx_.at(t_end_), length_);
     run_.metric("constraint_max", constraint_, length_ + "/s");
     run_.metric("energy_lost", balances_.lost_part());
     extremes_.report(run_);

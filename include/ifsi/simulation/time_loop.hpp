@@ -78,6 +78,9 @@ class StepControl {
   int good_ = 0, cuts_ = 0;
 };
 
+/// From this change within a step on, errors in time of more than 5 % were seen (docs/stability.md).
+inline constexpr double coarse_change = 0.25;
+
 /// A problem that steps in time: step(dt) leaves it unchanged when it does not converge.
 template <class P>
 concept TransientProblem = requires(P& p, CheckpointWriter& out, const Checkpoint& in) {
@@ -97,7 +100,7 @@ void march(Run& run, Problem& problem, const TimeOptions& time, Observe&& observ
     return checkpoint.save(run.path(""), run.totals.steps);
   };
   StepControl control(time);
-  double next_checkpoint = problem.time() + time.checkpoint_every;
+  double largest_change = 0.0, next_checkpoint = problem.time() + time.checkpoint_every;
   while (problem.time() < time.end * (1.0 - 1e-10)) {
     const double t = problem.time(), dt = control.next(t, time.end);
     const StepReport report = problem.step(dt);
@@ -113,6 +116,7 @@ void march(Run& run, Problem& problem, const TimeOptions& time, Observe&& observ
     }
     control.accepted(dt, report.change);
     ++run.totals.steps;
+    largest_change = std::max(largest_change, report.change);
     observe(dt);
     char line[160];
     std::snprintf(line, sizeof line, "t %.5g  dt %.3g  newton %d  gmres %d  residual %.1e %.1e",
@@ -127,6 +131,10 @@ void march(Run& run, Problem& problem, const TimeOptions& time, Observe&& observ
       next_checkpoint += time.checkpoint_every;
     }
   }
+  if (largest_change > 0.0) run.metric("change_max", largest_change);
+  if (largest_change > coarse_change)
+    run.log("warning: the time step is coarse: solid nodes ended up to " + std::to_string(largest_change) +
+            " of the tolerated distance from their prediction; take a smaller time.dt or time.adaptive=true");
 }
 
 }  // namespace ifsi
