@@ -2,9 +2,10 @@
 // 2026).
 //
 //        +---------------+
-//        |    .-'''-.    |     ring of radius 0.25 and width 0.0625 about (0.5, 0.5), stress S = mu e_Theta
-//        (x) e_Theta |   (       )   |     on all sides no slip, zero-mean pressure |    '-...-'    |
-//        +---------------+
+//        |    .-'''-.    |     ring of radius 0.25 and width 0.0625 about (0.5, 0.5),
+//        |   (       )   |     stress S = mu e_Theta (x) e_Theta
+//        |    '-...-'    |
+//        +---------------+     on all sides no slip, zero-mean pressure
 //
 // p = p_0 outside, p_0 + mu ln((R+w)/r) in the ring, p_0 + mu ln(1+w/R) inside, p_0 = -pi mu w (2R+w)/2.
 // Metrics: v_l2, v_h1, p_l2 at the end, p_centre, order_* (sweep = h), area_change_max.

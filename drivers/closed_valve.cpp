@@ -43,7 +43,7 @@ void closed_valve(Run& run) {
 
   Signal leak, p_left, p_right;
   double v_max = 0.0;
-  TipHistory history(run, problem, o, middle, "cm",
+  TipHistory history(run, problem, o.time.end, o.picture_every, middle, "cm",
                      {{"leak", "cm^2/s"}, {"p_left", "dyn/cm^2"}, {"p_right", "dyn/cm^2"}});
   march(run, problem, o.time, [&](double dt) {
     const double t = problem.time();

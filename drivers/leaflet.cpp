@@ -39,7 +39,7 @@ void leaflet(Run& run) {
   FsiProblem<Quad1, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(body), o.flow, o.fsi);
   attach(run, problem);
 
-  TipHistory history(run, problem, o, tip, "m");
+  TipHistory history(run, problem, o.time.end, o.picture_every, tip, "m");
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });
   history.report(std::max(0.0, o.time.end - 1.0));
   run.metric("tip_dy_min", history.dy().min(std::max(0.0, o.time.end - 1.0)).value, "m");

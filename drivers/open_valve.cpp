@@ -49,7 +49,7 @@ void open_valve(Run& run) {
   FsiProblem<Quad1, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(leaflets), o.flow, o.fsi);
   attach(run, problem);
 
-  TipHistory history(run, problem, o, tip, "cm");
+  TipHistory history(run, problem, o.time.end, o.picture_every, tip, "cm");
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });
   history.report(o.time.end / 3.0);
   for (const std::string curve : {"ale", "m3"})

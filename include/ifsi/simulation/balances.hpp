@@ -20,7 +20,8 @@ class Balances {
   static constexpr int dim = Problem::dim;
   using Coordinates = typename Problem::System::Coordinates;
 
-  explicit Balances(const Problem& problem) : problem_(problem), last_(problem.totals()) {}
+  explicit Balances(const Problem& problem)
+      : problem_(problem), last_(problem.totals()), supplied_(last_.kinetic) {}
 
   [[nodiscard]] static std::vector<Column> columns() {
     std::vector<Column> names = {{"power_in", "energy/time"},       {"dissipation", "energy/time"},
@@ -35,7 +36,7 @@ class Balances {
     const auto in = problem_.supply(), taken = problem_.taken_by_solids();
     const auto now = problem_.totals(), alpha = problem_.totals_alpha();
     const double loss = in.energy - alpha.dissipation - taken.energy - (now.kinetic - last_.kinetic) / dt;
-    work_in_ += dt * std::abs(in.energy), work_lost_ += dt * loss;
+    supplied_ += dt * std::abs(in.energy), lost_ += dt * loss;
     std::vector<double> row = {in.energy, alpha.dissipation, taken.energy, now.kinetic, loss, net_outflow()};
     for (int i = 0; i < dim; ++i)
       row.push_back(in.momentum[i] - taken.momentum[i] - (now.momentum[i] - last_.momentum[i]) / dt);
@@ -43,8 +44,9 @@ class Balances {
     return row;
   }
 
-  /// What was lost to the scheme over the work that went through the boundary, either way.
-  [[nodiscard]] double lost_part() const { return work_in_ > 0.0 ? work_lost_ / work_in_ : 0.0; }
+  /// What was lost to the scheme over the work that went through the boundary, either way, and what was
+  /// there.
+  [[nodiscard]] double lost_part() const { return supplied_ > 0.0 ? lost_ / supplied_ : 0.0; }
 
  private:
   [[nodiscard]] double net_outflow() const {
@@ -57,7 +59,7 @@ class Balances {
 
   const Problem& problem_;
   FlowTotals<dim> last_;
-  double work_in_ = 0.0, work_lost_ = 0.0;
+  double supplied_, lost_ = 0.0;
 };
 
 }  // namespace ifsi

@@ -180,21 +180,21 @@ struct FsiExtremes {
   }
 };
 
-/// What every leaflet case records: the displacement of one node, balances, pictures, and the figures of the
+/// What every case in time records: the displacement of one node, balances, pictures, and the figures of the
 /// summary.
 template <class Problem>
 class TipHistory {
  public:
   /// \param node whose displacement is followed; \param more further columns of history.csv
-  TipHistory(Run& run, const Problem& problem, const LeafletOptions& o, int node, const std::string& length,
-             const std::vector<Column>& more = {})
+  TipHistory(Run& run, const Problem& problem, double t_end, double picture_every, int node,
+             const std::string& length, const std::vector<Column>& more = {})
       : run_(run),
         problem_(problem),
         node_(node),
         length_(length),
-        t_end_(o.time.end),
+        t_end_(t_end),
         balances_(problem),
-        pictures_(run, o.picture_every) {
+        pictures_(run, picture_every) {
     if (run.restarted()) pictures_.resume(problem.time());
     std::vector<Column> columns = {{"t", "s"},
                                    {"tip_dx", length},

@@ -102,6 +102,14 @@ class FsiProblem : public FlowProblem<Element, Model> {
     return largest;
   }
 
+  /// As of the flow alone; the solids move with it from the beginning.
+  void start(double t, const typename Flow::Field& v, const typename Flow::Field& v_dot = {},
+             const typename Flow::ScalarField& p = {}) {
+    Flow::start(t, v, v_dot, p);
+    C_.locate(solids_.positions());
+    solids_.start(C_.velocities(this->state_.velocity().data(), Flow::B));
+  }
+
   /// One step; when the report says it did not converge nothing has changed.
   StepReport step(double dt) {
     const auto scheme = GeneralizedAlpha::from_rho_inf(this->options_.rho_inf);

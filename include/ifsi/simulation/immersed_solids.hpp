@@ -59,6 +59,11 @@ class ImmersedSolids {
     return points(v_, std::vector<Point>(X_.size(), Point::zero()));
   }
 
+  /// Starts with these velocities, undeformed.
+  void start(std::span<const Point> v) {
+    for (std::size_t k = 0; k < v_.size(); ++k) v_[k] = v_old_[k] = v[k / dim][k % dim];
+  }
+
   /// \param levels alpha_m and alpha_f of the fluid; \param rates beta and gamma of the solid.
   void begin_step(const GeneralizedAlpha& levels, const GeneralizedAlpha& rates, double dt) {
     levels_ = levels, rates_ = rates, dt_ = dt;
