@@ -237,6 +237,7 @@ class TipHistory {
     run_.metric("tip_dx_max", dx_.max(t_from).value, length_);
     run_.metric("tip_dx_min", dx_.min(t_from).value, length_);
     run_.metric("tip_dy_max", dy_.max(t_from).value, length_);
+    run_.metric("tip_dx_peak", dx_.max().value, length_);
     run_.metric("tip_dx_end", dx_.at(t_end_), length_);
     run_.metric("constraint_max", constraint_, length_ + "/s");
     run_.metric("energy_lost", balances_.lost_part());
