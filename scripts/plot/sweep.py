@@ -50,8 +50,11 @@ def picture(table):
     labels = distinct(rows, "axis0")
     if "=" in labels[0]:
         axes[0, 0].set_ylabel(labels[0].split("=")[0], fontsize=7)
-    figure.legend([pyplot.Rectangle((0, 0), 1, 1, color=c) for c in COLOURS.values()], list(COLOURS), fontsize=6,
-                  loc="outside lower center", ncol=len(COLOURS))
+    # Below the panels: matplotlib 3.6 has no place outside of them.
+    legend = axes[-1, -1].legend([pyplot.Rectangle((0, 0), 1, 1, color=c) for c in COLOURS.values()], list(COLOURS),
+                                 fontsize=6, loc="upper right", bbox_to_anchor=(1.0, -0.28), ncol=len(COLOURS),
+                                 frameon=False)
+    legend.set_in_layout(False)
     name = table.with_suffix(".png")
     figure.savefig(name, dpi=130)
     pyplot.close(figure)

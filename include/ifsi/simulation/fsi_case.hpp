@@ -196,6 +196,7 @@ class TipHistory {
         balances_(problem),
         pictures_(run, picture_every) {
     if (run.restarted()) pictures_.resume(problem.time());
+    if (!problem.advice().empty()) run.log(problem.advice());
     std::vector<Column> columns = {{"t", "s"},
                                    {"tip_dx", length},
                                    {"tip_dy", length},
