@@ -92,18 +92,16 @@ struct StokesModel {
   StokesOptions options;
   BlockCsr<B> K;
   BlockCsr<1> laplacian;     // 1/(rho c) grad grad
-  std::vector<double> mass;  // lumped / viscosity
+  BlockCsr<1> mass;          // over the viscosity
+  BlockCsr<1> convection;    // over viscosity and rho c
 
   explicit StokesModel(StokesOptions o)
-      : grid(o.cells), options(o), K(build_pattern(grid.layout, grid.cells)), laplacian(K.shared_pattern()) {
-    for (int i = 0; i < K.n_rows(); ++i) {
-      double row_mass = 0;
+      : grid(o.cells), options(o), K(build_pattern(grid.layout, grid.cells)), laplacian(K.shared_pattern()), mass(laplacian), convection(laplacian) {
+    for (int i = 0; i < K.n_rows(); ++i)
       for (int k = K.row_ptr()[i]; k < K.row_ptr()[i + 1]; ++k) {
-        fill(i, K.cols()[k], K.at(k), *laplacian.at(k));
-        row_mass += product(i, K.cols()[k], -1, -1);
+        fill(i, K.cols()[k], K.at(k), *laplacian.at(k), *convection.at(k));
+        *mass.at(k) = product(i, K.cols()[k], -1, -1) / options.viscosity;
       }
-      mass.push_back(row_mass / options.viscosity);
-    }
   }
 
   /// int d_p N_i d_q N_j; -1: no derivative.
@@ -119,16 +117,16 @@ struct StokesModel {
     }
     return false;
   }
-  void fill(int i, int j, double* block, double& lap) const {
-    double stiffness = 0, convection = 0;
+  void fill(int i, int j, double* block, double& lap, double& conv) const {
+    double stiffness = 0, transport = 0;
     for (int d = 0; d < dim; ++d) {
       stiffness += product(i, j, d, d);
-      convection += options.wind / (1 << d) * product(i, j, -1, d);
+      transport += options.wind / (1 << d) * product(i, j, -1, d);
     }
     const double h = 1.0 / options.cells;
     const double tau = 1 / std::sqrt(4 * options.rho_c * options.rho_c + std::pow(2 * options.wind / h, 2) +
                                      std::pow(12 * options.viscosity / (h * h), 2));
-    const double a = options.rho_c * product(i, j, -1, -1) + options.viscosity * stiffness + convection;
+    const double a = options.rho_c * product(i, j, -1, -1) + options.viscosity * stiffness + transport;
     for (int c = 0; c < dim; ++c) {
       const bool fixed = is_fixed(i);
       for (int e = 0; e < dim; ++e) block[c * B + e] = c != e ? 0.0 : fixed ? (i == j ? 1.0 : 0.0) : a;
@@ -137,6 +135,7 @@ struct StokesModel {
     }
     block[dim * B + dim] = tau * stiffness;
     lap = stiffness / options.rho_c;
+    conv = transport / (options.viscosity * options.rho_c);
   }
 
   /// A right-hand side with a known solution: x (returned), b = K x; prescribed velocities are zero, and so

@@ -190,26 +190,29 @@ SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFie
                                                                    const Parameters& fluid) const {
   const bool steady = fluid.c_inertia == 0.0;
   const double rho_c = fluid.rho * fluid.c_inertia, inverse_rho_c = 1.0 / (steady ? fluid.rho : rho_c);
-  SchurParts parts{std::vector<double>(mesh_.nodes.n_owned(), 0.0), BlockCsr<1>(pattern_), 0.0,
-                   BlockCsr<1>(pattern_), steady};
+  SchurParts parts{.mass = BlockCsr<1>(pattern_),
+                   .laplacian = BlockCsr<1>(pattern_),
+                   .convection = BlockCsr<1>(pattern_),
+                   .viscous_number = 0.0,
+                   .steady = steady};
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
     for (int q = 0; q < Rule::n; ++q) {
       const auto& point = kernel.point(q);
       const auto& N = BasisTable<Element, Rule>::N[q];
-      const T mass = point.JxW() / (2.0 * point.mu() + point.rho_tau_C());
-      const T trace_G = fluid.rho / (point.rho_tau_C() * point.tau_M());
+      const T weight = point.JxW() / (2.0 * point.mu() + point.rho_tau_C());
       for (int a = 0; a < n; ++a) {
         const auto grad_a = inverse_rho_c * point.JxW() * kernel.trial(a, q).grad;
-        const T mass_a = N[a] * mass;
-        add_lanes<1>(&mass_a, rows_of(batch, a, 1, parts.mass.data()).data());
         for (int b = 0; b < n; ++b) {
           const auto& trial = kernel.trial(b, q);
+          const T mass = N[a] * N[b] * weight;
           const T laplacian = dot(grad_a, trial.grad);
-          const T convection = inverse_rho_c * mass_a * (trial.D - rho_c * N[b]);
+          const T convection = inverse_rho_c * N[a] * weight * (trial.transport - rho_c * N[b]);
+          add_lanes<1>(&mass, blocks_of(batch, a, b, parts.mass).data());
           add_lanes<1>(&laplacian, blocks_of(batch, a, b, parts.laplacian).data());
           add_lanes<1>(&convection, blocks_of(batch, a, b, parts.convection).data());
         }
       }
+      const T trace_G = fluid.rho / (point.rho_tau_C() * point.tau_M());  // 4 dim / h^2 (eq. 5, 6)
       for (int l = 0; l < batch.n_cells; ++l)
         parts.viscous_number =
             std::max(parts.viscous_number, point.mu()[l] * trace_G[l] * inverse_rho_c / (4.0 * dim));

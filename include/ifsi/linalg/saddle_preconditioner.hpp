@@ -19,12 +19,13 @@ struct SaddleOptions {
 
 /// For K = [A G; D L] with (v, p) of a node side by side:
 ///
-///     z_p = S^-1 r_p,              S^-1 = N^-1 + M^-1 ((1 - tau_M c) + C N^-1)
+///     z_p = S^-1 r_p,              S^-1 = N^-1 + (M + L)^-1 ((1 - tau_M c) + C N^-1)        (eq. 14)
 ///     z_v = A^-1 (r_v - G z_p)
 ///
-/// with M, N, C of SchurParts and N^-1 by one V-cycle; in steady flow S^-1 = M^-1 (1 + C N^-1). Where
-/// velocity is free on a boundary S acts on constants, N does not: there N gets a Robin term (see
-/// add_outlet_terms). B = dim + 1. Rows of prescribed unknowns are diagonal rows.
+/// with M, N, C of SchurParts, N^-1 by one V-cycle and (M + L)^-1 by ILU(0); in steady flow S^-1 = (M + L)^-1
+/// (1 + C N^-1). N needs boundary terms, different ones beside C than alone (add_outlet_terms,
+/// add_inflow_terms): it is set up twice where transport matters. B = dim + 1. Rows of prescribed unknowns
+/// are diagonal rows.
 template <int B>
 class SaddlePreconditioner {
  public:

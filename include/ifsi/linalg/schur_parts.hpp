@@ -9,25 +9,19 @@
 
 namespace ifsi {
 
-/// Parts of the pressure Schur complement S = L - D A^-1 G of K = [A G; D L], A ~ rho c M + convection +
-/// viscous + grad-div. For waves of wave number k and velocity v, with m = 2 mu + rho tau_C, its inverse is
-/// close to
-///
-///     rho c / k^2  +  m (1 - tau_M c)  +  i rho v.k / k^2
-///
-/// (stabilisation included: PSPG and SUPG cancel where inertia or convection dominate). The three terms are
-/// N^-1, the weighted inverse mass matrix and M^-1 C N^-1 below. Where the unknowns or equations of K carry
-/// factors (A = a (rho c M + ..), G = g grad, D = d div), mass and laplacian carry d g / a.
+/// Parts of the pressure Schur complement S of K = [A G; D L] (eq. 14): A is rho c times the mass matrix plus
+/// convection, viscous and grad-div terms, L the PSPG block. All matrices have the nodes of K and no boundary
+/// conditions. m = 2 mu + rho tau_C.
 struct SchurParts {
-  std::vector<double> mass;  ///< M per owned node: lumped pressure mass / m
-  /// N: int grad q . 1/(rho c [+ k_s]) grad p, same nodes as K; no boundary conditions. In steady flow 1/rho
-  /// stands for 1/(rho c), a scale that the product C N^-1 does not show.
+  BlockCsr<1> mass;  ///< M: int q p / m
+  /// N: int grad q . grad p / (rho c). In steady flow 1 / rho stands for 1 / (rho c), a scale that the product
+  /// C N^-1 does not show.
   BlockCsr<1> laplacian;
-  /// max over the cells of max(mu, mu_s) dt / (rho h^2): how far the velocity block is from a mass
-  /// matrix. h is the distance of neighbouring nodes.
-  double viscous_number = 0;
-  /// C: int q rho/(m rho c) v . grad p, with the same 1/(rho c) as in N. Left empty: no convection.
+  /// C: int q rho v . grad p / (m rho c), with the same 1 / (rho c) as in N. Left empty: no convection.
   BlockCsr<1> convection{};
+  /// Max over the cells of mu / (rho c h^2), h the distance of neighbouring nodes: how far the velocity block
+  /// is from a mass matrix. Infinite in steady flow.
+  double viscous_number = 0;
   bool steady = false;  ///< no inertia: N^-1 alone is not part of S^-1
 };
 
