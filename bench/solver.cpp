@@ -1,6 +1,8 @@
 // Iterations and CPU time of the block-preconditioned GMRES on matrices of the flow, over time step, Reynolds
 // number and mesh size.
 #include <ctime>
+#include <fstream>
+#include <map>
 
 #include "ifsi/simulation/flow_case.hpp"
 
@@ -124,16 +126,45 @@ Cost measure(const Mesh<Element>& mesh, const Flow& flow, int n, LinearSolverOpt
   return cost;
 }
 
+/// Iterations and times as docs/solvers.md shows them: a row per flow, a column per mesh.
+class Table {
+ public:
+  void add(const Flow& flow, const std::string& mesh, const std::string& text) {
+    if (std::find(meshes_.begin(), meshes_.end(), mesh) == meshes_.end()) meshes_.push_back(mesh);
+    char name[60];
+    std::snprintf(name, sizeof name, flow.CFL > 0.0 ? "%sRe %g, CFL %g" : "%sRe %g, steady",
+                  flow.enclosed ? "enclosed, " : "", flow.Re, flow.CFL);
+    if (cells_.find(name) == cells_.end()) flows_.push_back(name);
+    cells_[name][mesh] = text;
+  }
+  void write(const std::string& file) {
+    std::ofstream out(file);
+    out << "| flow |";
+    for (const auto& mesh : meshes_) out << ' ' << mesh << " |";
+    out << "\n|---|";
+    for (std::size_t k = 0; k < meshes_.size(); ++k) out << "---|";
+    for (const auto& flow : flows_) {
+      out << "\n| " << flow << " |";
+      for (const auto& mesh : meshes_) out << ' ' << cells_[flow][mesh] << " |";
+    }
+    out << '\n';
+  }
+
+ private:
+  std::vector<std::string> meshes_, flows_;
+  std::map<std::string, std::map<std::string, std::string>> cells_;
+};
+
 struct Choice {
   LinearSolverOptions linear{.method = "gmres", .max_iterations = 200};
-  std::string flow = "both";
+  std::string flow = "open";
   std::vector<double> Re{1, 100, 1000}, CFL{0.25, 1, 8, 0};
   bool verbose = false;
 };
 
 /// All flows on meshes of one element; n nodes along a side.
 template <class Element>
-void survey(Run& run, CsvFile& csv, const Choice& choice, const std::vector<double>& sizes) {
+void survey(Run& run, CsvFile& csv, Table& table, const Choice& choice, const std::vector<double>& sizes) {
   int worst = 0;
   for (double size : sizes) {
     const int n = static_cast<int>(size);
@@ -153,6 +184,10 @@ void survey(Run& run, CsvFile& csv, const Choice& choice, const std::vector<doub
               Element::name, c.unknowns, enclosed ? "enclosed" : "open", Re, CFL, c.report.iterations,
               c.report.converged ? "" : " (not converged)", us * c.setup, us * c.solve);
           run.log(choice.verbose ? line + (" | " + c.preconditioner) : line);
+          std::snprintf(line, sizeof line, "%d, %.1f + %.1f", c.report.iterations, us * c.setup,
+                        us * c.solve);
+          table.add({Re, CFL, enclosed}, Element::name + (' ' + std::to_string(long(c.unknowns / 1e3))) + "k",
+                    line);
           worst = std::max(worst, c.report.iterations);
         }
   }
@@ -189,13 +224,15 @@ int main(int argc, char** argv) {
                                          {"converged", "-"},
                                          {"setup", "us/unknown"},
                                          {"solve", "us/unknown"}});
+    Table table;
     const auto plane = !sizes.empty() ? sizes : full ? std::vector{58., 182., 578.} : std::vector{58., 182.};
     const auto space = !sizes.empty() ? sizes : full ? std::vector{14., 26., 62.} : std::vector{14., 26.};
-    if (element == "default" || element == "quad1") survey<Quad1>(run, csv, choice, plane);
-    if (element == "quad2") survey<Quad2>(run, csv, choice, plane);
-    if (element == "tri1") survey<Tri1>(run, csv, choice, plane);
-    if (element == "default" || element == "hex1") survey<Hex1>(run, csv, choice, space);
-    if (element == "hex2") survey<Hex2>(run, csv, choice, space);
-    if (element == "tet1") survey<Tet1>(run, csv, choice, space);
+    if (element == "default" || element == "quad1") survey<Quad1>(run, csv, table, choice, plane);
+    if (element == "quad2") survey<Quad2>(run, csv, table, choice, plane);
+    if (element == "tri1") survey<Tri1>(run, csv, table, choice, plane);
+    if (element == "default" || element == "hex1") survey<Hex1>(run, csv, table, choice, space);
+    if (element == "hex2") survey<Hex2>(run, csv, table, choice, space);
+    if (element == "tet1") survey<Tet1>(run, csv, table, choice, space);
+    if (run.comm().is_root()) table.write(run.path("table.md"));
   });
 }

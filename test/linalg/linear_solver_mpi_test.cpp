@@ -15,7 +15,8 @@ template <int dim>
 double error(const StokesModel<dim>& model, const std::vector<double>& x) {
   const std::vector<double> exact = model.exact();
   double e = 0;
-  for (std::size_t i = 0; i < model.K.n_rows() * std::size_t{dim + 1}; ++i) e = std::max(e, std::abs(x[i] - exact[i]));
+  for (std::size_t i = 0; i < model.K.n_rows() * std::size_t{dim + 1}; ++i)
+    e = std::max(e, std::abs(x[i] - exact[i]));
   return model.grid.comm.max(e);
 }
 

@@ -91,12 +91,17 @@ struct StokesModel {
   Grid<dim> grid;
   StokesOptions options;
   BlockCsr<B> K;
-  BlockCsr<1> laplacian;     // 1/(rho c) grad grad
-  BlockCsr<1> mass;          // over the viscosity
-  BlockCsr<1> convection;    // over viscosity and rho c
+  BlockCsr<1> laplacian;   // 1/(rho c) grad grad
+  BlockCsr<1> mass;        // over the viscosity
+  BlockCsr<1> convection;  // over viscosity and rho c
 
   explicit StokesModel(StokesOptions o)
-      : grid(o.cells), options(o), K(build_pattern(grid.layout, grid.cells)), laplacian(K.shared_pattern()), mass(laplacian), convection(laplacian) {
+      : grid(o.cells),
+        options(o),
+        K(build_pattern(grid.layout, grid.cells)),
+        laplacian(K.shared_pattern()),
+        mass(laplacian),
+        convection(laplacian) {
     for (int i = 0; i < K.n_rows(); ++i)
       for (int k = K.row_ptr()[i]; k < K.row_ptr()[i + 1]; ++k) {
         fill(i, K.cols()[k], K.at(k), *laplacian.at(k), *convection.at(k));

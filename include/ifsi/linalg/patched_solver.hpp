@@ -64,6 +64,7 @@ class PatchedSolver {
       report = run(K_f, K_s, b, x, target, true);
     }
     reuse_.record(report.iterations, report.decades());
+    if (!report.converged) reuse_.invalidate();
     K_f.layout().update_ghosts(x.data(), B);
     return report;
   }

@@ -14,8 +14,8 @@ namespace ifsi {
 /// conditions. m = 2 mu + rho tau_C.
 struct SchurParts {
   BlockCsr<1> mass;  ///< M: int q p / m
-  /// N: int grad q . grad p / (rho c). In steady flow 1 / rho stands for 1 / (rho c), a scale that the product
-  /// C N^-1 does not show.
+  /// N: int grad q . grad p / (rho c). In steady flow 1 / rho stands for 1 / (rho c), a scale that the
+  /// product C N^-1 does not show.
   BlockCsr<1> laplacian;
   /// C: int q rho v . grad p / (m rho c), with the same 1 / (rho c) as in N. Left empty: no convection.
   BlockCsr<1> convection{};

@@ -119,13 +119,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
 
   /// One step; when the report says it did not converge nothing has changed.
   StepReport step(double dt) {
-    const auto scheme = GeneralizedAlpha::from_rho_inf(this->options_.rho_inf);
-    const auto rates = GeneralizedAlpha::from_rho_inf(fsi_.rho_inf_solid);
-    if (scheme.c_inertia(dt) != c_of_patch_) patched_.invalidate();
-    c_of_patch_ = scheme.c_inertia(dt);
-    this->open_step(scheme, dt, false, false);
-    solids_.begin_step(scheme, rates, dt);
-    place_solids(dt);
+    begin_step(dt);
     StepReport report = newton(*this, this->options_.newton, this->watch_);
     if (report.converged) check_change(report, dt);
     if (report.converged) {
@@ -182,6 +176,17 @@ class FsiProblem : public FlowProblem<Element, Model> {
     K_s_constrained_.apply(wide.data(), z.data());
     for (std::size_t k = 0; k < z.size(); ++k) y[k] += z[k];
     return y;
+  }
+
+  /// Prepares the equations of a step; step() does, then solves them by Newton.
+  void begin_step(double dt) {
+    const auto scheme = GeneralizedAlpha::from_rho_inf(this->options_.rho_inf);
+    const auto rates = GeneralizedAlpha::from_rho_inf(fsi_.rho_inf_solid);
+    if (scheme.c_inertia(dt) != c_of_patch_) patched_.invalidate();
+    c_of_patch_ = scheme.c_inertia(dt);
+    this->open_step(scheme, dt, false, false);
+    solids_.begin_step(scheme, rates, dt);
+    place_solids(dt);
   }
 
   // NonlinearSystem
