@@ -43,23 +43,54 @@ FluidParameters<typename Model::Rheology> parameters() {
   return fluid;
 }
 
-// A distorted cell with random fields; v_dot = c v + b, so that it follows v as in a time step.
+// The number types of these tests: lanes with different cells, and a value with its derivative in one
+// direction.
+using Lanes = Pack<2>;
+using D = test::Dual<1>;
+template <class TypeParam, class T>
+using Cell = FlowCell<typename TypeParam::Element, DefaultQuadrature<typename TypeParam::Element>,
+                      typename TypeParam::Model, T>;
+
+// A distorted cell with random fields in each lane.
 template <class Element>
-FlowCellData<Element, double> random_cell(unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> number(-1.0, 1.0);
-  FlowCellData<Element, double> cell;
+FlowCellData<Element, Lanes> random_cells() {
+  std::mt19937 generator(1);
+  const auto number = [&] {
+    Lanes x;
+    for (int l = 0; l < Lanes::lanes; ++l)
+      x.set(l, std::uniform_real_distribution<double>(-1.0, 1.0)(generator));
+    return x;
+  };
+  FlowCellData<Element, Lanes> cells;
   for (int a = 0; a < Element::n_nodes; ++a) {
     for (int i = 0; i < Element::dim; ++i) {
-      cell.X[a][i] = 2.0 + Element::nodes[a][i] + 0.05 * number(generator);
-      cell.v[a][i] = number(generator);
-      cell.v_dot[a][i] = number(generator);
-      cell.f[a][i] = number(generator);
+      cells.X[a][i] = 2.0 + Element::nodes[a][i] + 0.05 * number();
+      cells.v[a][i] = number();
+      cells.v_dot[a][i] = number();
+      cells.f[a][i] = number();
     }
-    cell.p[a] = number(generator);
-    cell.s[a] = 1.5 + number(generator);
+    cells.p[a] = number();
+    cells.s[a] = 1.5 + number();
   }
-  cell.k_p = 0.6;
+  cells.k_p = 0.6 + 0.1 * number();
+  return cells;
+}
+
+// One lane of them.
+template <class Element>
+FlowCellData<Element, D> lane_of(const FlowCellData<Element, Lanes>& cells, int l) {
+  FlowCellData<Element, D> cell;
+  for (int a = 0; a < Element::n_nodes; ++a) {
+    for (int i = 0; i < Element::dim; ++i) {
+      cell.X[a][i] = cells.X[a][i][l];
+      cell.v[a][i] = cells.v[a][i][l];
+      cell.v_dot[a][i] = cells.v_dot[a][i][l];
+      cell.f[a][i] = cells.f[a][i][l];
+    }
+    cell.p[a] = cells.p[a][l];
+    cell.s[a] = cells.s[a][l];
+  }
+  cell.k_p = cells.k_p[l];
   return cell;
 }
 
@@ -67,83 +98,32 @@ template <class T>
 class FlowCellTest : public testing::Test {};
 TYPED_TEST_SUITE(FlowCellTest, Scenes);
 
+// In every lane, for every unknown: v_dot follows v as in a time step.
 TYPED_TEST(FlowCellTest, TangentIsTheDerivativeOfTheResidual) {
   using Element = typename TypeParam::Element;
-  using Model = typename TypeParam::Model;
-  constexpr int n = Element::n_nodes, dim = Element::dim, B = dim + 1, N = n * B;
-  using D = test::Dual<N>;
-  using Rule = DefaultQuadrature<Element>;
-  const auto fluid = parameters<Model>();
-  const auto cell = random_cell<Element>(1);
-  auto dual = std::make_unique<FlowCellData<Element, D>>();
-  for (int a = 0; a < n; ++a) {
-    for (int i = 0; i < dim; ++i) {
-      dual->X[a][i] = cell.X[a][i];
-      dual->f[a][i] = cell.f[a][i];
-      dual->v[a][i] = D::variable(cell.v[a][i], a * B + i);
-      dual->v_dot[a][i] = D(fluid.c_inertia) * (dual->v[a][i] - D(cell.v[a][i])) + D(cell.v_dot[a][i]);
-    }
-    dual->p[a] = D::variable(cell.p[a], a * B + dim);
-    dual->s[a] = cell.s[a];
-  }
-  dual->k_p = cell.k_p;
-
-  std::vector<Vec<D, B>> R(n);
-  const auto kernel = std::make_unique<FlowCell<Element, Rule, Model, D>>(*dual, fluid);
-  kernel->residual([&](int a, const Vec<D, B>& R_a) { R[a] = R_a; });
+  constexpr int n = Element::n_nodes, dim = Element::dim, B = dim + 1;
+  const auto fluid = parameters<typename TypeParam::Model>();
+  const auto cells = random_cells<Element>();
+  const Cell<TypeParam, Lanes> kernel(cells, fluid);
+  std::vector<Mat<Lanes, B>> K(n * n);
+  kernel.tangent([&](int a, int b, const Mat<Lanes, B>& K_ab) { K[a * n + b] = K_ab; });
   double largest = 0.0;
-  for (int a = 0; a < n; ++a)
-    for (int k = 0; k < B; ++k)
-      for (double d : R[a][k].d) largest = std::max(largest, std::abs(d));
-  FlowCell<Element, Rule, Model, double>(cell, fluid)
-      .residual_and_tangent(
-          [&](int a, const Vec<double, B>& R_a) {
-            for (int k = 0; k < B; ++k) EXPECT_NEAR(R_a[k], R[a][k].v, 1e-12 * largest);
-          },
-          [&](int a, int b, const Mat<double, B>& K) {
-            for (int i = 0; i < B; ++i)
-              for (int j = 0; j < B; ++j)
-                EXPECT_NEAR(K(i, j), R[a][i].d[b * B + j], 1e-12 * largest)
-                    << "a " << a << " b " << b << " i " << i << " j " << j;
-          });
-}
-
-TYPED_TEST(FlowCellTest, PacksComputeWhatDoublesCompute) {
-  using Element = typename TypeParam::Element;
-  using Model = typename TypeParam::Model;
-  using T = Pack<4>;
-  constexpr int n = Element::n_nodes, B = Element::dim + 1;
-  using Rule = DefaultQuadrature<Element>;
-  const auto fluid = parameters<Model>();
-  FlowCellData<Element, T> cells;
-  for (int l = 0; l < 4; ++l) {
-    const auto cell = random_cell<Element>(10 + l);
-    for (int a = 0; a < n; ++a) {
-      for (int i = 0; i < Element::dim; ++i) {
-        cells.X[a][i].set(l, cell.X[a][i]);
-        cells.v[a][i].set(l, cell.v[a][i]);
-        cells.v_dot[a][i].set(l, cell.v_dot[a][i]);
-        cells.f[a][i].set(l, cell.f[a][i]);
+  for (const auto& K_ab : K)
+    for (const Lanes& x : K_ab.data) largest = std::max({largest, std::abs(x[0]), std::abs(x[1])});
+  for (int l = 0; l < Lanes::lanes; ++l)
+    for (int b = 0; b < n; ++b)
+      for (int j = 0; j < B; ++j) {
+        auto cell = lane_of(cells, l);
+        (j < dim ? cell.v[b][j] : cell.p[b]).d[0] = 1.0;
+        if (j < dim) cell.v_dot[b][j].d[0] = fluid.c_inertia;
+        const Cell<TypeParam, D> varied(cell, fluid);
+        for (int a = 0; a < n; ++a)
+          for (int i = 0; i < B; ++i) {
+            EXPECT_NEAR(kernel.residual(a)[i][l], varied.residual(a)[i].v, 1e-12 * largest);
+            EXPECT_NEAR(K[a * n + b](i, j)[l], varied.residual(a)[i].d[0], 1e-12 * largest)
+                << "lane " << l << " a " << a << " b " << b << " i " << i << " j " << j;
+          }
       }
-      cells.p[a].set(l, cell.p[a]);
-      cells.s[a].set(l, cell.s[a]);
-    }
-    cells.k_p.set(l, cell.k_p);
-  }
-  std::vector<Vec<T, B>> R(n);
-  std::vector<Mat<T, B>> K(n * n);
-  FlowCell<Element, Rule, Model, T>(cells, fluid)
-      .residual_and_tangent([&](int a, const Vec<T, B>& R_a) { R[a] = R_a; },
-                            [&](int a, int b, const Mat<T, B>& K_ab) { K[a * n + b] = K_ab; });
-  for (int l = 0; l < 4; ++l)
-    FlowCell<Element, Rule, Model, double>(random_cell<Element>(10 + l), fluid)
-        .residual_and_tangent(
-            [&](int a, const Vec<double, B>& R_a) {
-              for (int i = 0; i < B; ++i) EXPECT_NEAR(R_a[i], R[a][i][l], 1e-11);
-            },
-            [&](int a, int b, const Mat<double, B>& K_ab) {
-              for (int i = 0; i < B * B; ++i) EXPECT_NEAR(K_ab.data[i], K[a * n + b].data[i][l], 1e-10);
-            });
 }
 
 // Test functions that sum to one: momentum rows then add up to the integral of rho (dv/dt - f) plus
@@ -153,24 +133,21 @@ TYPED_TEST(FlowCellTest, RowsSumToTheBalances) {
   using Model = typename TypeParam::Model;
   constexpr int n = Element::n_nodes, dim = Element::dim, B = dim + 1;
   if constexpr (!Model::Coordinates::axisymmetric) {
-    const auto fluid = parameters<Model>();
-    auto cell = random_cell<Element>(3);
-    for (int a = 0; a < n; ++a) {  // v = A x with a trace, a uniform acceleration, no body force
+    auto cell = lane_of(random_cells<Element>(), 0);
+    for (int a = 0; a < n; ++a)  // v = A x with a trace, a uniform acceleration and body force
       for (int i = 0; i < dim; ++i) {
-        cell.v[a][i] = (i + 1.0) * cell.X[a][i];
+        cell.v[a][i] = D(i + 1.0) * cell.X[a][i];
         cell.v_dot[a][i] = 2.0;
         cell.f[a][i] = 0.5;
       }
-    }
-    auto sum = Vec<double, B>::zero();
-    FlowCell<Element, DefaultQuadrature<Element>, Model, double>(cell, fluid)
-        .residual([&](int, const Vec<double, B>& R_a) { sum += R_a; });
+    const Cell<TypeParam, D> kernel(cell, parameters<Model>());
+    auto sum = Vec<D, B>::zero();
+    for (int a = 0; a < n; ++a) sum += kernel.residual(a);
     double volume = 0.0;
-    for (int q = 0; q < DefaultQuadrature<Element>::n; ++q)
-      volume += FlowCell<Element, DefaultQuadrature<Element>, Model, double>(cell, fluid).point(q).JxW();
-    EXPECT_NEAR(sum[dim], volume * dim * (dim + 1) / 2.0, 1e-12 * std::abs(sum[dim]) * 10);
+    for (int q = 0; q < DefaultQuadrature<Element>::n; ++q) volume += kernel.point(q).JxW().v;
+    EXPECT_NEAR(sum[dim].v, volume * dim * (dim + 1) / 2.0, 1e-12 * std::abs(sum[dim].v) * 10);
     if constexpr (!Model::Physics::convection) {
-      for (int i = 0; i < dim; ++i) EXPECT_NEAR(sum[i], volume * 1.3 * 1.5, 1e-11);
+      for (int i = 0; i < dim; ++i) EXPECT_NEAR(sum[i].v, volume * 1.3 * 1.5, 1e-11);
     }
   }
 }

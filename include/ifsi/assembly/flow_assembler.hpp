@@ -135,6 +135,28 @@ class FlowAssembler {
     return to;
   }
 
+  void add_residual(const Kernel& kernel, const Batch& batch, std::span<double> R) const {
+    for (int a = 0; a < n; ++a) add_lanes<B>(kernel.residual(a).data, rows_of(batch, a, B, R.data()).data());
+  }
+
+  /// One more than the last row that the batch adds to, and at least `rows`.
+  [[nodiscard]] int rows_needed(const Batch& batch, int rows) const {
+    for (int l = 0; l < batch.n_cells; ++l)
+      for (int node : mesh_.cells[batch.cell[l]])
+        if (node < mesh_.nodes.n_owned()) rows = std::max(rows, node + 1);
+    return rows;
+  }
+
+  /// Sets the rows from `begin` up to `end` to zero, and begin = end. Done row by row ahead of the cells,
+  /// instead of for the whole matrix at once, it finds and leaves the rows in the cache.
+  static void zero_rows(BlockCsr<B>& K, int& begin, int end) {
+    const auto first_block = [&](int row) {
+      return K.values.begin() + static_cast<std::ptrdiff_t>(K.row_ptr()[row]) * B * B;
+    };
+    std::fill(first_block(begin), first_block(end), 0.0);
+    begin = end;
+  }
+
   /// Asks the memory for the blocks of row a, which the kernel computes next.
   void prefetch_row(const Batch& batch, int a, const BlockCsr<B>& K) const {
     constexpr int line = 8;  // doubles per cache line
@@ -160,10 +182,8 @@ template <class Element, class Model, class Rule, int lanes>
 void FlowAssembler<Element, Model, Rule, lanes>::residual(const FlowFields& fields, const Parameters& fluid,
                                                           std::span<double> R) const {
   std::fill_n(R.begin(), mesh_.nodes.n_owned() * B, 0.0);
-  for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
-    kernel.residual(
-        [&](int a, const Vec<T, B>& R_a) { add_lanes<B>(R_a.data, rows_of(batch, a, B, R.data()).data()); });
-  });
+  for_each_batch(fields, fluid,
+                 [&](const Kernel& kernel, const Batch& batch) { add_residual(kernel, batch, R); });
 }
 
 template <class Element, class Model, class Rule, int lanes>
@@ -172,17 +192,16 @@ void FlowAssembler<Element, Model, Rule, lanes>::residual_and_tangent(const Flow
                                                                       std::span<double> R,
                                                                       BlockCsr<B>& K) const {
   std::fill_n(R.begin(), mesh_.nodes.n_owned() * B, 0.0);
-  K.set_zero();
+  int zeroed = 0;
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
-    kernel.residual_and_tangent(
-        [&](int a, const Vec<T, B>& R_a) {
-          prefetch_row(batch, a, K);
-          add_lanes<B>(R_a.data, rows_of(batch, a, B, R.data()).data());
-        },
-        [&](int a, int b, const Mat<T, B>& K_ab) {
-          add_lanes<B * B>(K_ab.data, blocks_of(batch, a, b, K).data());
-        });
+    zero_rows(K, zeroed, rows_needed(batch, zeroed));
+    add_residual(kernel, batch, R);
+    kernel.tangent([&](int a, int b, const Mat<T, B>& K_ab) {
+      if (b == 0) prefetch_row(batch, a, K);
+      add_lanes<B * B>(K_ab.data, blocks_of(batch, a, b, K).data());
+    });
   });
+  zero_rows(K, zeroed, mesh_.nodes.n_owned());
 }
 
 template <class Element, class Model, class Rule, int lanes>

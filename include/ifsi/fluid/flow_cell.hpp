@@ -40,8 +40,9 @@ class FlowCell {
   using Trial = TrialFunction<T, dim>;
 
  public:
-  /// Evaluates all quadrature points; residual() and residual_and_tangent() may follow.
+  /// Evaluates all quadrature points and sums the residual; residual() and tangent() hand them out.
   FlowCell(const FlowCellData<Element, T>& cell, const Parameters& fluid) {
+    residual_.fill(Vec<T, B>::zero());
     std::array<Vec<T, dim>, n> acceleration;
     for (int a = 0; a < n; ++a) acceleration[a] = cell.v_dot[a] - cell.f[a];
     FlowPoint<T, dim> x;
@@ -52,22 +53,18 @@ class FlowCell {
     }
   }
 
-  /// sink(a, b, block) receives the (dim+1) x (dim+1) tangent of each node pair, sink(a, R) each residual.
-  template <class ResidualSink, class TangentSink>
-  void residual_and_tangent(ResidualSink&& residual, TangentSink&& tangent) const {
+  /// Residual of node a: dim momentum rows, then the mass row.
+  [[nodiscard]] const Vec<T, B>& residual(int a) const { return residual_[a]; }
+
+  /// sink(a, b, block) receives the (dim+1) x (dim+1) tangent of each node pair, row by row.
+  template <class Sink>
+  void tangent(Sink&& sink) const {
     std::array<Test, nq> tests;
     for (int a = 0; a < n; ++a) {
-      residual(a, residual_of(a));
       // In place: a test function is large.
-      for (int q = 0; q < nq; ++q) new (&tests[q]) Test(points_[q].test(trials_[a][q]));
-      tangents_of(a, tests, tangent);
+      for (int q = 0; q < nq; ++q) new (&tests[q]) Test(points_[q].test(Table::N[q][a], trials_[a][q]));
+      tangents_of(a, tests, sink);
     }
-  }
-
-  /// The residual alone.
-  template <class ResidualSink>
-  void residual(ResidualSink&& sink) const {
-    for (int a = 0; a < n; ++a) sink(a, residual_of(a));
   }
 
   [[nodiscard]] const VmsPoint<Model, T, dim>& point(int q) const { return points_[q]; }
@@ -81,32 +78,29 @@ class FlowCell {
     T det_J;
   };
 
-  [[gnu::always_inline]] Vec<T, B> residual_of(int a) const {
-    Vec<T, B> R = Vec<T, B>::zero();
-    for (int q = 0; q < nq; ++q) points_[q].add_residual(trials_[a][q], R);
-    return R;
-  }
-
-  template <class TangentSink>
-  [[gnu::always_inline]] void tangents_of(int a, const std::array<Test, nq>& tests,
-                                          TangentSink& tangent) const {
+  template <class Sink>
+  [[gnu::always_inline]] void tangents_of(int a, const std::array<Test, nq>& tests, Sink& sink) const {
     [[maybe_unused]] Test sum;
     if constexpr (constant_gradients) {
       new (&sum) Test(tests[0]);
       for (int q = 1; q < nq; ++q) sum.add_factors_of_gradients(tests[q]);
     }
     for (int b = 0; b < n; ++b) {
-      Mat<T, B> K = Mat<T, B>::zero();
+      Mat<T, B> pair = Mat<T, B>::zero();
       T diagonal(0.0);
       for (int q = 0; q < nq; ++q) {
-        points_[q].add_tangent_of_values(tests[q], trials_[b][q], K, diagonal);
+        const double N = Table::N[q][b];
+        points_[q].add_tangent_of_values(tests[q], N, trials_[b][q], pair, diagonal);
         if constexpr (!constant_gradients)
-          points_[q].add_tangent_of_gradients(tests[q], trials_[b][q], K, diagonal);
+          points_[q].add_tangent_of_gradients(tests[q], N, trials_[b][q], pair, diagonal);
       }
-      if constexpr (constant_gradients) points_[0].add_tangent_of_gradients(sum, trials_[b][0], K, diagonal);
+      if constexpr (constant_gradients)
+        points_[0].add_tangent_of_gradients(sum, Table::N[0][b], trials_[b][0], pair, diagonal);
+      Mat<T, B> K;  // a copy: what is handed out lives in memory, what is summed up should not
+      copy(pair, K);
       IFSI_UNROLL
       for (int i = 0; i < dim; ++i) K(i, i) += diagonal;
-      tangent(a, b, K);
+      sink(a, b, K);
     }
   }
 
@@ -140,9 +134,13 @@ class FlowCell {
     x.k_p = cell.k_p;
     x.radius = Model::Coordinates::axisymmetric ? interpolate(Table::N[q], cell.X)[0] : T(1.0);
     x.JxW = Rule::weights[q] * basis.det_J * Model::Coordinates::measure(x.radius);
-    new (&points_[q]) VmsPoint<Model, T, dim>(x, fluid);
-    for (int a = 0; a < n; ++a)
-      new (&trials_[a][q]) Trial(points_[q].trial(Table::N[q][a], basis.grad[a], basis.lap[a]));
+    ResidualFactors<T, dim> residual;
+    new (&points_[q]) VmsPoint<Model, T, dim>(x, fluid, residual);
+    for (int a = 0; a < n; ++a) {
+      const double N = Table::N[q][a];
+      new (&trials_[a][q]) Trial(points_[q].trial(N, basis.grad[a], basis.lap[a], x.v));
+      add_residual(residual, N, basis.grad[a], residual_[a]);
+    }
   }
 
   /// grad f = sum_a f_a (x) grad N_a.
@@ -154,6 +152,7 @@ class FlowCell {
 
   std::array<VmsPoint<Model, T, dim>, nq> points_;
   std::array<std::array<Trial, nq>, n> trials_;
+  std::array<Vec<T, B>, n> residual_;
 };
 
 }  // namespace ifsi

@@ -7,6 +7,7 @@
 /// differentiation number for checking the tangent.
 
 #include <cmath>
+#include <type_traits>
 
 #include "ifsi/core/tensor.hpp"
 #include "ifsi/fluid/physics.hpp"
@@ -39,11 +40,36 @@ struct FlowPoint {
   T JxW;          ///< quadrature weight times volume element
 };
 
+/// The residual at one quadrature point (eq. 3): what multiplies w, grad w, q and grad q, the quadrature
+/// weight included.
+template <class T, int dim>
+struct ResidualFactors {
+  Vec<T, dim> w;
+  Mat<T, dim> grad_w;
+  T q;
+  Vec<T, dim> grad_q;
+};
+
+/// Adds the part of a point to the residual of the node with shape function N: dim momentum rows, then the
+/// mass row.
+template <class T, int dim>
+[[gnu::always_inline]] inline void add_residual(const ResidualFactors<T, dim>& point, double N,
+                                                const Vec<T, dim>& grad, Vec<T, dim + 1>& R) {
+  IFSI_UNROLL
+  for (int i = 0; i < dim; ++i) {
+    R[i] += N * point.w[i];
+    IFSI_UNROLL
+    for (int j = 0; j < dim; ++j) R[i] += point.grad_w(i, j) * grad[j];
+    R[dim] += point.grad_q[i] * grad[i];
+  }
+  R[dim] += N * point.q;
+}
+
 /// Trial function of one node at one point: what a change of its unknowns does to the fields there.
-/// dr_M = D I + N E for the velocity (E belongs to the point), grad for the pressure.
+/// dr_M = D I + N E for the velocity (E belongs to the point), grad for the pressure. Its value N is that of
+/// the table of shape functions, the same in all cells.
 template <class T, int dim>
 struct TrialFunction {
-  double N;
   Vec<T, dim> grad;
   T transport;  ///< rho (c N + (v + v') . grad N), v' of (eq. 2)
   T D;          ///< rho (c N + v . grad N) - mu lap N
@@ -89,21 +115,23 @@ class VmsPoint {
  public:
   VmsPoint() = default;
 
-  [[gnu::always_inline]] VmsPoint(const FlowPoint<T, dim>& x, const Parameters& fluid)
+  /// Also hands out the residual, which nobody needs later.
+  [[gnu::always_inline]] VmsPoint(const FlowPoint<T, dim>& x, const Parameters& fluid,
+                                  ResidualFactors<T, dim>& residual)
       : JxW_(x.JxW), rho_(fluid.rho) {
-    copy(x.v, v_);
-    copy(x.lap_v, lap_v_);
     copy(x.grad_v, grad_v_);
-    set_strain(x, fluid);
+    const Strain strain = strain_of(x);
+    set_viscosity(strain, fluid);
     Vec<T, dim> inertia = rho_ * x.acceleration;
-    if constexpr (convection) inertia += rho_ * (grad_v_ * v_);
-    const Vec<T, dim> r_M = inertia + x.grad_p - mu_ * lap_v_;
+    if constexpr (convection) inertia += rho_ * (grad_v_ * x.v);
+    const Vec<T, dim> r_M = inertia + x.grad_p - mu_ * strain.lap_v;
     set_stabilisation(x, fluid);
     const Vec<T, dim> tau_r = tau_M_ * r_M;
     fine_v_ = (-1.0 / rho_) * tau_r;
-    advecting_v_ = v_ + fine_v_;
-    set_linearisation(fluid);
-    set_residual(inertia, tau_r, x.p);
+    advecting_v_ = x.v + fine_v_;
+    rho_c_ = rho_ * fluid.c_inertia;
+    if constexpr (axisymmetric) E_rr_ = mu_ * inverse_r_ * inverse_r_;
+    residual = residual_of(strain, inertia, tau_r, x.p);
   }
 
   [[nodiscard]] T tau_M() const { return tau_M_; }
@@ -111,67 +139,56 @@ class VmsPoint {
   [[nodiscard]] T mu() const { return mu_; }
   [[nodiscard]] T JxW() const { return JxW_; }
 
-  /// Trial function from N, its gradient and its Laplacian (in axisymmetric scenes without the 1/r part).
-  [[nodiscard, gnu::always_inline]] TrialFunction<T, dim> trial(double N, const Vec<T, dim>& grad,
-                                                                T lap) const {
+  /// Trial function from N, its gradient and its Laplacian (in axisymmetric scenes without the 1/r part), and
+  /// the velocity v at the point.
+  [[nodiscard, gnu::always_inline]] TrialFunction<T, dim> trial(double N, const Vec<T, dim>& grad, T lap,
+                                                                const Vec<T, dim>& v) const {
     TrialFunction<T, dim> b;
-    b.N = N;
     copy(grad, b.grad);
     if constexpr (axisymmetric) lap += inverse_r_ * grad[0];
     b.transport = b.D = T(rho_c_ * N);
     if constexpr (convection) {
       b.transport += rho_ * dot(advecting_v_, grad);
-      b.D += rho_ * dot(v_, grad);
+      b.D += rho_ * dot(v, grad);
     }
     b.D -= mu_ * lap;
     return b;
   }
 
   /// Test function of the node that `b` is the trial function of.
-  [[nodiscard, gnu::always_inline]] TestFunction<T, dim> test(const TrialFunction<T, dim>& b) const {
+  [[nodiscard, gnu::always_inline]] TestFunction<T, dim> test(double N,
+                                                              const TrialFunction<T, dim>& b) const {
     TestFunction<T, dim> a;
-    a.N = JxW_ * b.N;
+    a.N = JxW_ * N;
     const Vec<T, dim> grad = JxW_ * b.grad, tau_grad = tau_M_ * grad;
-    const Vec<T, dim> tau_grad_E = times_E(tau_grad);
     copy(grad, a.div);
     if constexpr (axisymmetric) a.div[0] += a.N * inverse_r_;
     if constexpr (axisymmetric) a.hoop = 2.0 * mu_ * inverse_r_ * inverse_r_ * a.N;
     a.mu_grad = mu_ * grad;
     a.tau_C_div = rho_tau_C_ * a.div;
     if constexpr (convection) {
-      const T advection = dot(advecting_v_, tau_grad);            // SUPG and Reynolds
-      a.A = outer(fine_v_, tau_grad) - (tau_M_ * a.N) * grad_v_;  // Reynolds again, cross
-      add_to_diagonal(a.A, advection);
-      a.B = outer(fine_v_, tau_grad_E - rho_ * grad) + a.N * value_slope_ + (rho_ * advection) * grad_v_;
-      if constexpr (axisymmetric) a.B(0, 0) += advection * E_rr_;
+      a.A = outer(fine_v_, tau_grad) - (tau_M_ * a.N) * grad_v_;  // Reynolds, cross
+      add_to_diagonal(a.A, dot(advecting_v_, tau_grad));          // SUPG, Reynolds
+      Mat<T, dim> value = a.A;
+      add_to_diagonal(value, a.N);
+      a.B = value * (rho_ * grad_v_) - outer(fine_v_, rho_ * grad);  // A E + w.grad v - Reynolds
+      if constexpr (axisymmetric)
+        for (int i = 0; i < dim; ++i) a.B(i, 0) += E_rr_ * a.A(i, 0);
     } else {
       a.A = a.B = Mat<T, dim>::zero();
     }
     a.q_D = k_p_over_rho_ * tau_grad;
-    a.q_N = k_p_over_rho_ * tau_grad_E;
+    a.q_N = k_p_over_rho_ * times_E(tau_grad);
     if constexpr (!newtonian) {
-      a.viscosity_slope = slope_ * (JxW_ * shear_gradient(b) - a.A * lap_v_);
-      a.q_viscosity = -slope_ * dot(a.q_D, lap_v_);
+      a.viscosity_slope = slope_ * (JxW_ * shear_gradient(N, b) - a.A * strain_.lap_v);
+      a.q_viscosity = -slope_ * dot(a.q_D, strain_.lap_v);
     }
     return a;
   }
 
-  /// Adds the residual of the node that `b` is the trial function of: dim momentum rows, then the mass row
-  /// (eq. 3).
-  [[gnu::always_inline]] void add_residual(const TrialFunction<T, dim>& b, Vec<T, B>& R) const {
-    IFSI_UNROLL
-    for (int i = 0; i < dim; ++i) {
-      R[i] += b.N * momentum_source_[i];
-      IFSI_UNROLL
-      for (int j = 0; j < dim; ++j) R[i] += momentum_flux_(i, j) * b.grad[j];
-      R[dim] += mass_flux_[i] * b.grad[i];
-    }
-    R[dim] += b.N * mass_source_;
-  }
-
   /// Adds to the tangent block of a pair of functions (eq. 7) what multiplies N_b and D_b: rows as the
   /// residual, columns (v, p) at alpha_f. `diagonal` collects what belongs on the diagonal of the velocity.
-  [[gnu::always_inline]] void add_tangent_of_values(const TestFunction<T, dim>& a,
+  [[gnu::always_inline]] void add_tangent_of_values(const TestFunction<T, dim>& a, double N_b,
                                                     const TrialFunction<T, dim>& b, Mat<T, B>& K,
                                                     T& diagonal) const {
     diagonal += a.N * b.transport;
@@ -181,16 +198,16 @@ class VmsPoint {
         IFSI_UNROLL
         for (int j = 0; j < dim; ++j) {
           K(i, j) += a.A(i, j) * b.D;
-          K(i, j) += a.B(i, j) * b.N;
+          K(i, j) += a.B(i, j) * N_b;
         }
       }
-      K(i, dim) -= a.div[i] * b.N;
+      K(i, dim) -= a.div[i] * N_b;
       K(dim, i) += a.q_D[i] * b.D;
-      K(dim, i) += a.q_N[i] * b.N;
+      K(dim, i) += a.q_N[i] * N_b;
     }
-    if constexpr (axisymmetric) K(0, 0) += a.hoop * b.N;
+    if constexpr (axisymmetric) K(0, 0) += a.hoop * N_b;
     if constexpr (!newtonian) {
-      const Vec<T, dim> shear_b = shear_gradient(b);
+      const Vec<T, dim> shear_b = shear_gradient(N_b, b);
       IFSI_UNROLL
       for (int j = 0; j < dim; ++j) {
         IFSI_UNROLL
@@ -201,11 +218,11 @@ class VmsPoint {
   }
 
   /// Adds the rest of the block: what multiplies grad N_b.
-  [[gnu::always_inline]] void add_tangent_of_gradients(const TestFunction<T, dim>& a,
+  [[gnu::always_inline]] void add_tangent_of_gradients(const TestFunction<T, dim>& a, double N_b,
                                                        const TrialFunction<T, dim>& b, Mat<T, B>& K,
                                                        T& diagonal) const {
     Vec<T, dim> b_div = b.grad;
-    if constexpr (axisymmetric) b_div[0] += inverse_r_ * b.N;
+    if constexpr (axisymmetric) b_div[0] += inverse_r_ * N_b;
     IFSI_UNROLL
     for (int i = 0; i < dim; ++i) {
       diagonal += a.mu_grad[i] * b.grad[i];
@@ -221,21 +238,38 @@ class VmsPoint {
   }
 
  private:
-  /// Strain rate, viscosity, and what 1/r adds to div v and lap v.
-  [[gnu::always_inline]] void set_strain(const FlowPoint<T, dim>& x, const Parameters& fluid) {
-    two_eps_ = grad_v_ + transpose(grad_v_);
-    div_v_ = trace(grad_v_);
-    T shear_rate_squared = 0.5 * inner(two_eps_, two_eps_);
+  /// Derivatives of v with what 1/r adds to them in axisymmetric scenes.
+  struct Strain {
+    Mat<T, dim> two_eps;
+    Vec<T, dim> lap_v;
+    T div_v;
+    T hoop_rate;  ///< v_r / r; read by axisymmetric scenes only
+  };
+  struct NoStrain {};
+
+  [[gnu::always_inline]] Strain strain_of(const FlowPoint<T, dim>& x) {
+    Strain strain;
+    strain.two_eps = x.grad_v + transpose(x.grad_v);
+    copy(x.lap_v, strain.lap_v);
+    strain.div_v = trace(x.grad_v);
     if constexpr (axisymmetric) {
       inverse_r_ = T(1.0) / x.radius;
-      const T hoop_rate = v_[0] * inverse_r_;
-      div_v_ += hoop_rate;
-      shear_rate_squared += 2.0 * hoop_rate * hoop_rate;
-      for (int i = 0; i < dim; ++i) lap_v_[i] += inverse_r_ * grad_v_(i, 0);
-      lap_v_[0] -= inverse_r_ * hoop_rate;
+      strain.hoop_rate = x.v[0] * inverse_r_;
+      strain.div_v += strain.hoop_rate;
+      for (int i = 0; i < dim; ++i) strain.lap_v[i] += inverse_r_ * x.grad_v(i, 0);
+      strain.lap_v[0] -= inverse_r_ * strain.hoop_rate;
     }
+    return strain;
+  }
+
+  [[gnu::always_inline]] void set_viscosity(const Strain& strain, const Parameters& fluid) {
+    T shear_rate_squared = 0.5 * inner(strain.two_eps, strain.two_eps);
+    if constexpr (axisymmetric) shear_rate_squared += 2.0 * strain.hoop_rate * strain.hoop_rate;
     mu_ = fluid.rheology.viscosity(shear_rate_squared);
-    if constexpr (!newtonian) slope_ = 2.0 * fluid.rheology.viscosity_slope(shear_rate_squared);
+    if constexpr (!newtonian) {
+      slope_ = 2.0 * fluid.rheology.viscosity_slope(shear_rate_squared);
+      strain_ = strain;
+    }
   }
 
   /// tau_M (eq. 4) and tau_C (eq. 5).
@@ -243,7 +277,7 @@ class VmsPoint {
     using std::sqrt;
     const T nu = (1.0 / rho_) * mu_;
     T rate2 = fluid.tau_rate2 + fluid.C_I * nu * nu * inner(x.G, x.G);
-    if constexpr (convection) rate2 += dot(v_, x.G * v_);
+    if constexpr (convection) rate2 += dot(x.v, x.G * x.v);
     rate2 = x.s * rate2;
     const T trace_G = trace(x.G);
     const T inverse_tau_M = sqrt(rate2);
@@ -253,32 +287,21 @@ class VmsPoint {
     k_p_over_rho_ = (1.0 / rho_) * x.k_p;
   }
 
-  /// E and value_slope: the derivatives with respect to the value of v.
-  [[gnu::always_inline]] void set_linearisation(const Parameters& fluid) {
-    rho_c_ = rho_ * fluid.c_inertia;
-    if constexpr (axisymmetric) E_rr_ = mu_ * inverse_r_ * inverse_r_;
-    if constexpr (convection) {
-      Mat<T, dim> E = rho_ * grad_v_;
-      if constexpr (axisymmetric) E(0, 0) += E_rr_;
-      value_slope_ = rho_ * grad_v_ - tau_M_ * (grad_v_ * E);
-    }
-  }
-
-  /// (eq. 3): the factors of w and grad w, and of q and grad q, the quadrature weight included.
-  [[gnu::always_inline]] void set_residual(const Vec<T, dim>& inertia, const Vec<T, dim>& tau_r, const T& p) {
-    const T isotropic = rho_tau_C_ * div_v_ - p;  // LSIC, pressure
+  /// (eq. 3), term by term.
+  [[nodiscard, gnu::always_inline]] ResidualFactors<T, dim> residual_of(const Strain& strain,
+                                                                        const Vec<T, dim>& inertia,
+                                                                        const Vec<T, dim>& tau_r,
+                                                                        const T& p) const {
+    const T isotropic = rho_tau_C_ * strain.div_v - p;  // LSIC, pressure
     Vec<T, dim> source = inertia;
-    Mat<T, dim> flux = mu_ * two_eps_;
+    Mat<T, dim> flux = mu_ * strain.two_eps;
     add_to_diagonal(flux, isotropic);
     if constexpr (convection) {
       source -= grad_v_ * tau_r;           // cross stress
       flux += outer(tau_r, advecting_v_);  // SUPG, Reynolds stress
     }
-    if constexpr (axisymmetric) source[0] += inverse_r_ * (isotropic + 2.0 * mu_ * v_[0] * inverse_r_);
-    momentum_source_ = JxW_ * source;
-    momentum_flux_ = JxW_ * flux;
-    mass_source_ = JxW_ * div_v_;
-    mass_flux_ = (JxW_ * k_p_over_rho_) * tau_r;  // PSPG
+    if constexpr (axisymmetric) source[0] += inverse_r_ * (isotropic + 2.0 * mu_ * strain.hoop_rate);
+    return {JxW_ * source, JxW_ * flux, JxW_ * strain.div_v, (JxW_ * k_p_over_rho_) * tau_r};  // last: PSPG
   }
 
   /// x E, E = rho grad v + mu / r^2 e_r (x) e_r of dr_M = D I + N E (eq. 7).
@@ -290,24 +313,21 @@ class VmsPoint {
   }
 
   /// Half the derivative of gamma_dot^2 with respect to the nodal velocity of a function.
-  [[nodiscard, gnu::always_inline]] Vec<T, dim> shear_gradient(const TrialFunction<T, dim>& b) const {
-    Vec<T, dim> g = two_eps_ * b.grad;
-    if constexpr (axisymmetric) g[0] += 2.0 * v_[0] * inverse_r_ * inverse_r_ * b.N;
+  [[nodiscard, gnu::always_inline]] Vec<T, dim> shear_gradient(double N,
+                                                               const TrialFunction<T, dim>& b) const {
+    Vec<T, dim> g = strain_.two_eps * b.grad;
+    if constexpr (axisymmetric) g[0] += 2.0 * strain_.hoop_rate * inverse_r_ * N;
     return g;
   }
 
-  // In the order of use: first what every test function reads.
+  // What the test functions read, and nothing that only the residual needs: the points of a cell and its
+  // trial functions compete for the first-level cache.
   Mat<T, dim> grad_v_;
-  Mat<T, dim> value_slope_;           ///< rho grad v - tau_M grad v E: factor of N_a in B of (eq. 7)
   Vec<T, dim> fine_v_, advecting_v_;  ///< v' (eq. 2) and v + v'
   T JxW_, tau_M_, mu_, rho_tau_C_, k_p_over_rho_;
   double rho_, rho_c_;
-  Vec<T, dim> momentum_source_, mass_flux_;
-  Mat<T, dim> momentum_flux_;
-  T mass_source_;
-  Vec<T, dim> v_, lap_v_;
-  Mat<T, dim> two_eps_;
-  T div_v_, slope_, inverse_r_, E_rr_;
+  T slope_, inverse_r_, E_rr_;  ///< the first in non-Newtonian scenes only, the others in axisymmetric ones
+  [[no_unique_address]] std::conditional_t<newtonian, NoStrain, Strain> strain_;
 };
 
 }  // namespace ifsi
