@@ -48,6 +48,11 @@ struct CylinderChannel {
   int n_band_rows = 0;
   int n_band_columns = 0;
   int n_beside_band = 0;
+  /// Of a flag in the middle of the band, fixed to the back of the cylinder: the lines of the mesh along it
+  /// are straight from the cylinder on. No flag when 0.
+  double flag_half_height = 0;
+  /// The flag is rigid: a hole in the mesh from the cylinder to band_end, boundary "flag". It fills its band.
+  bool cut_flag = false;
 
   /// Every cell count times a factor (rounded; n_around stays a multiple of 8), the first layer divided by
   /// it.
@@ -77,8 +82,8 @@ inline CylinderChannel schaefer_turek_3d_section() {
   return c;
 }
 
-/// The channel of Turek and Hron (2006) without its flag: length 2.5, cylinder at (0.2, 0.2); a band of equal
-/// cells holds a flag of 0.02 x 0.35 behind the cylinder, with four rows of cells over its thickness.
+/// The channel of Turek and Hron (2006) for an immersed flag: length 2.5, cylinder at (0.2, 0.2); a band of
+/// equal cells holds the flag of 0.02 x 0.35 behind the cylinder, with four rows of cells over its thickness.
 inline CylinderChannel turek_hron_channel() {
   CylinderChannel c;
   c.length = 2.5;
@@ -88,6 +93,7 @@ inline CylinderChannel turek_hron_channel() {
   c.n_band_columns = 56;
   c.n_beside_band = 7;
   c.n_downstream = 56;
+  c.flag_half_height = 0.01;
   return c;
 }
 
@@ -114,7 +120,12 @@ class CylinderChannelBuilder {
 
   [[nodiscard]] GlobalMesh<Element> build() const {
     GlobalMesh<Element> mesh;
-    add_rings(mesh, right_, [](double t) { return Vec<double, 2>{1, t}; });
+    add_rings(
+        mesh, right_,
+        [](double t) {
+          return Vec<double, 2>{1, t};
+        },
+        c_.flag_half_height);
     add_rings(mesh, reversed(bottom_), [](double t) { return Vec<double, 2>{t, 1}; });
     add_rings(mesh, reversed(left_), [](double t) { return Vec<double, 2>{-1, t}; });
     add_rings(mesh, bottom_, [](double t) { return Vec<double, 2>{t, -1}; });
@@ -122,6 +133,7 @@ class CylinderChannelBuilder {
     for (const Axis* y : {&below_, &above_}) add_rectangle(mesh, bottom_, *y);
     for (const Axis* y : {&below_, &right_, &above_}) add_rectangle(mesh, downstream_, *y);
     weld(mesh, 1e-9 * c_.radius);
+    if (c_.cut_flag) mesh = without_flag(std::move(mesh));
     name_boundaries(mesh);
     return mesh;
   }
@@ -148,6 +160,34 @@ class CylinderChannelBuilder {
           "the band must be narrower than the square and end between the square and the outlet, with cells "
           "in it "
           "and beside it");
+    if (!(c_.flag_half_height >= 0 && c_.flag_half_height < c_.radius))
+      fail("found a flag of half height " + std::to_string(c_.flag_half_height) +
+           "; expected less than the radius");
+    if (c_.cut_flag &&
+        !(c_.flag_half_height > 0 && c_.n_band_rows > 0 && c_.band_half_height == c_.flag_half_height))
+      fail("a flag that is cut out must fill a band: expected band_half_height = flag_half_height > 0");
+  }
+
+  /// Whether a position is within the flag, its surface included.
+  [[nodiscard]] bool in_flag(const Vec<double, 2>& x) const {
+    const double tolerance = 1e-9 * c_.radius;
+    return x[0] > c_.center[0] && x[0] < c_.band_end + tolerance &&
+           std::abs(x[1] - c_.center[1]) < c_.flag_half_height + tolerance;
+  }
+
+  [[nodiscard]] GlobalMesh<Element> without_flag(GlobalMesh<Element> mesh) const {
+    std::erase_if(mesh.cells, [&](const auto& cell) {
+      return std::all_of(cell.begin(), cell.end(), [&](int p) { return in_flag(mesh.points[p]); });
+    });
+    std::vector<int> number(mesh.points.size(), -1);
+    std::vector<Vec<double, 2>> points;
+    for (auto& cell : mesh.cells)
+      for (int& p : cell) {
+        if (number[p] < 0) number[p] = static_cast<int>(points.size()), points.push_back(mesh.points[p]);
+        p = number[p];
+      }
+    mesh.points = std::move(points);
+    return mesh;
   }
 
   /// The band, if any, and the cells from there to the outlet.
@@ -202,9 +242,9 @@ class CylinderChannelBuilder {
 
   /// The rings between the cylinder and one side of the square. `side` are coordinates along it,
   /// counterclockwise; corner(t) maps t = +-1 (relative coordinate along the side) onto the square of half
-  /// width 1.
+  /// width 1. Lines within `straight` of the middle of the side run straight to the cylinder.
   template <class Square>
-  void add_rings(GlobalMesh<Element>& mesh, const Axis& side, Square&& square) const {
+  void add_rings(GlobalMesh<Element>& mesh, const Axis& side, Square&& square, double straight = 0) const {
     const int axis = square(0.5)[0] == 0.5 ? 0 : 1;  // the coordinate that varies along the side
     const auto on_square = [&](double s) {
       auto q = c_.center + c_.half_width * square(0);
@@ -225,18 +265,35 @@ class CylinderChannelBuilder {
       if (layer == c_.n_radial) return q;
       const double R = at(rings_, layer), phi = angle(s);
       const double blend = (R - c_.radius) / (c_.half_width - c_.radius);
-      const Vec<double, 2> e = {std::cos(phi), std::sin(phi)};
+      const auto direction = [&](double radius) {
+        const double bent = bent_angle(phi, radius, straight);
+        return Vec<double, 2>{std::cos(bent), std::sin(bent)};
+      };
       // Rings near the cylinder are circles; the excess of the square over the last circle comes in
       // quadratically.
-      return c_.center + R * e + blend * blend * (q - c_.center - c_.half_width * e);
+      const auto excess = q - c_.center - c_.half_width * direction(c_.half_width);
+      return c_.center + R * direction(R) + blend * blend * excess;
     });
+  }
+
+  /// Angle at which the mesh line to the angle phi of the right side meets the circle of a radius: phi
+  /// itself, unless lines within `straight` of the middle are to keep their distance from it.
+  [[nodiscard]] double bent_angle(double phi, double radius, double straight) const {
+    if (straight == 0) return phi;
+    constexpr double corner = std::numbers::pi / 4;
+    const double a = c_.half_width, edge = std::atan(straight / a), edge_here = std::asin(straight / radius);
+    if (std::abs(phi) <= edge) return std::asin(a * std::tan(phi) / radius);
+    const double part = (std::abs(phi) - edge) / (corner - edge);
+    return std::copysign(edge_here + part * (corner - edge_here), phi);
   }
 
   void name_boundaries(GlobalMesh<Element>& mesh) const {
     mesh.boundary_names = {"inlet", "outlet", "walls", "cylinder"};
+    if (c_.cut_flag) mesh.boundary_names.push_back("flag");
     const double tolerance = 1e-9 * c_.radius;
     mark_boundaries(mesh, [&](const Vec<double, 2>& x) {
-      if (dot(x - c_.center, x - c_.center) < 2 * c_.radius * c_.radius) return 3;
+      if (dot(x - c_.center, x - c_.center) < (1 + 1e-6) * c_.radius * c_.radius) return 3;
+      if (c_.cut_flag && in_flag(x)) return 4;
       if (x[0] < tolerance) return 0;
       return x[0] > c_.length - tolerance ? 1 : 2;
     });
@@ -250,10 +307,9 @@ class CylinderChannelBuilder {
 
 }  // namespace detail
 
-/// The channel with a cylinder, boundaries inlet, outlet, walls, cylinder; cells quads or triangles, of order
-/// 1 or
-/// 2. Nodes of order-2 cells lie exactly on the circle, and inside follow the same smooth map. Throws
-/// Error(configuration) when the numbers do not make a channel.
+/// The channel with a cylinder, boundaries inlet, outlet, walls, cylinder (and flag, where one is cut out);
+/// cells quads or triangles, of order 1 or 2. Nodes of order-2 cells lie exactly on the circle, and inside
+/// follow the same smooth map. Throws Error(configuration) when the numbers do not make a channel.
 template <class Element>
 GlobalMesh<Element> channel_with_cylinder(const CylinderChannel& channel = {}) {
   auto quads = detail::CylinderChannelBuilder<BaseCell<Element>>(channel).build();

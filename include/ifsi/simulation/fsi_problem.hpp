@@ -117,6 +117,12 @@ class FsiProblem : public FlowProblem<Element, Model> {
     solids_.start(C_.velocities(this->state_.velocity().data(), Flow::B));
   }
 
+  /// Force of the fluid on a boundary and on the bodies fixed to it, all of them (eq. 27), at time
+  /// state().time_alpha(), of the last step.
+  [[nodiscard]] Point force_with_bodies(const std::string& boundary) const {
+    return this->force(boundary) + solids_.rate_of_momentum() - held_force();
+  }
+
   /// One step; when the report says it did not converge nothing has changed.
   StepReport step(double dt) {
     begin_step(dt);
@@ -138,13 +144,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   /// step (eq. 21).
   [[nodiscard]] typename Flow::System::Supply taken_by_solids() const {
     constexpr int dim = Flow::dim;
-    std::array<double, dim + 1> sums{};
-    for (int node = 0; node < mesh().n_owned_nodes(); ++node)
-      for (int i = 0; i < dim; ++i) {
-        const int k = node * Flow::B + i;
-        sums[i] += spread_[k];
-        sums[dim] += spread_[k] * this->state_.u[k];
-      }
+    std::array<double, dim + 1> sums = taken_;
     mesh().comm.sum_in_place(sums.data(), dim + 1);
     typename Flow::System::Supply taken{{}, sums[dim]};
     for (int i = 0; i < dim; ++i) taken.momentum[i] = sums[i];
@@ -301,12 +301,38 @@ class FsiProblem : public FlowProblem<Element, Model> {
     assemble_solids(tangent);
     spread_.assign(this->R_.size(), 0.0);
     C_.spread(R_s_, spread_.data(), Flow::B);
+    for (std::size_t i = 0; i < spread_.size(); ++i) this->reaction_[i] += spread_[i];
+    sum_taken();
     constrain_residual<Flow::B>(this->system_.mask(), mesh().n_owned_nodes(), spread_);
     for (std::size_t i = 0; i < spread_.size(); ++i) this->R_[i] += spread_[i];
     spread_norm_ = block_norms<Flow::B>(mesh().nodes, spread_).momentum;
     if (!tangent) return;
     K_s_constrained_.values = K_s_.matrix().values;
     constrain_matrix<Flow::B>(mask_s_, K_s_constrained_, false);
+  }
+
+  /// What holds the nodes outside of the mesh at their place: the sum of their forces, which C spreads
+  /// nowhere.
+  [[nodiscard]] Point held_force() const {
+    auto sum = Point::zero();
+    if (C_.lost().empty()) return sum;
+    std::vector<int> cells(solids_.cells().size());
+    std::iota(cells.begin(), cells.end(), 0);
+    std::vector<Point> R(solids_.n_nodes(), Point::zero());
+    solids_.assemble(cells, R, false, [](int, const Mat<double, Flow::dim>*) {});
+    for (int p : C_.lost()) sum += R[p];
+    return sum;
+  }
+
+  /// This rank's part of what the solids take, with what they take from prescribed nodes.
+  void sum_taken() {
+    taken_ = {};
+    for (int node = 0; node < mesh().n_owned_nodes(); ++node)
+      for (int i = 0; i < Flow::dim; ++i) {
+        const int k = node * Flow::B + i;
+        taken_[i] += spread_[k];
+        taken_[Flow::dim] += spread_[k] * this->state_.u[k];
+      }
   }
 
   static std::vector<long> all_numbers(const std::vector<double>& x) {
@@ -335,6 +361,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   PatchedSolver<Flow::B> patched_;
   std::vector<Point> R_s_;
   std::vector<Block> P_;  ///< change of a node's velocity per change of the fluid's at its place (eq. 20)
+  std::array<double, Flow::dim + 1> taken_{};  ///< momentum and energy per time
   bool settled_ = true;
   std::vector<double> new_v_, spread_;
   double min_det_F_ = 1.0, spread_norm_ = 0.0, c_of_patch_ = -1.0;

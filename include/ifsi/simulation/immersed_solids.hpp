@@ -141,6 +141,19 @@ class ImmersedSolids {
     return sum;
   }
 
+  /// Rate of change of the momentum of all bodies less their weight, at the level where the equations hold.
+  [[nodiscard]] Point rate_of_momentum() const {
+    auto sum = Point::zero();
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const int n = bodies_[b].n_dofs(), first = first_node_[b] * dim;
+      std::vector<double> a(a_alpha_.begin() + first, a_alpha_.begin() + first + n);
+      for (int k = 0; k < n; ++k) a[k] -= bodies_[b].parameters.gravity[k % dim];
+      const SolidState state{std::span<const double>(u_alpha_).subspan(first, n), a, {}};
+      sum += bodies_[b].totals(state, bodies_[b].all_cells()).momentum;  // linear in the velocity
+    }
+    return sum;
+  }
+
   /// Calls visit(name, array) for what a restart needs.
   template <class Visit>
   void for_each_array(Visit&& visit) {

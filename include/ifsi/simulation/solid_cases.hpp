@@ -33,12 +33,13 @@ GlobalMesh<Element> cook_membrane(int n) {
 }
 
 /// The elastic flag of Turek & Hron (2006): from the back of the cylinder at (0.2, 0.2), radius 0.05, to x =
-/// 0.6, 0.02 thick. Boundaries left (on the cylinder), right, bottom, top.
+/// 0.6, 0.02 thick. Boundaries left (on the cylinder), right, bottom, top. \param radius of the arc the root
+/// lies on: a little less than 0.05 puts the root's nodes inside the polygon that stands for the cylinder.
 template <class Element>
-GlobalMesh<Element> turek_hron_flag(int n_x, int n_y) {
+GlobalMesh<Element> turek_hron_flag(int n_x, int n_y, double radius = 0.05) {
   GlobalMesh<Element> mesh = box<Element>({0, -0.01}, {1, 0.01}, {n_x, n_y});
   for (auto& x : mesh.points) {
-    const double root = 0.2 + std::sqrt(0.05 * 0.05 - x[1] * x[1]);
+    const double root = 0.2 + std::sqrt(radius * radius - x[1] * x[1]);
     x = {root + x[0] * (0.6 - root), 0.2 + x[1]};
   }
   return mesh;
