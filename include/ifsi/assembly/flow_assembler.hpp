@@ -28,7 +28,8 @@ struct FlowFields {
   std::span<const double> f;      ///< body force per unit mass, dim numbers per node; empty: the constant one
   std::span<const double> s;      ///< stabilisation scale per node; empty: 1
   std::span<const double> k_p;    ///< PSPG scale per local cell; empty: 1
-  std::array<double, 3> gravity{};  ///< constant body force per unit mass, used when f is empty
+  std::span<const double> fraction;  ///< weight per local cell: the part that is fluid (eq. 20); empty: 1
+  std::array<double, 3> gravity{};   ///< constant body force per unit mass, used when f is empty
 };
 
 /// Loops over the cells of a mesh with the flow kernel of a model. Every cell that touches an owned node is
@@ -95,7 +96,7 @@ class FlowAssembler {
     data.p[a].set(l, u[dim]);
   }
 
-  /// Body force, s and k_p: constant when their fields are empty.
+  /// Body force, s, k_p and fraction: constant when their fields are empty.
   void gather_scales(const Batch& batch, const FlowFields& fields, FlowCellData<Element, T>& data) const {
     for (int a = 0; a < n; ++a) {
       for (int i = 0; i < dim; ++i) data.f[a][i] = T(fields.gravity[i]);
@@ -108,6 +109,7 @@ class FlowAssembler {
         for (int i = 0; i < dim; ++i) data.f[a][i].set(l, fields.f[mesh_.cells[c][a] * dim + i]);
       for (int a = 0; a < n && !fields.s.empty(); ++a) data.s[a].set(l, fields.s[mesh_.cells[c][a]]);
       if (!fields.k_p.empty()) data.k_p.set(l, fields.k_p[c]);
+      if (!fields.fraction.empty()) data.fraction.set(l, fields.fraction[c]);
     }
   }
 

@@ -469,6 +469,7 @@ extern template class SolidBody<Quad1, StVenantKirchhoff>;
 extern template class SolidBody<Quad1, UncoupledNeoHookean>;
 extern template class SolidBody<Quad1, CircumferentialFibre>;
 extern template class SolidBody<Quad2, StVenantKirchhoff>;
+extern template class SolidBody<Quad1, UncoupledNeoHookean, Displacement, Axisymmetric>;
 extern template class SolidBody<Quad1, UncoupledNeoHookean, MeanDilatation>;
 extern template class SolidBody<Quad1, UncoupledNeoHookean, MeanDilatation, Axisymmetric>;
 extern template class SolidBody<Hex1, UncoupledNeoHookean, MeanDilatation>;

@@ -24,6 +24,7 @@ struct FlowCellData {
   std::array<Vec<T, dim>, n> f;      ///< body force per unit mass
   std::array<T, n> s;                ///< stabilisation scale
   T k_p;                             ///< PSPG scale of the cell
+  T fraction = T(1.0);               ///< weight of all of the cell's terms (eq. 20)
 };
 
 /// The flow kernel of one cell. Quadrature is the innermost loop of the tangent, so that the (dim+1)^2
@@ -133,7 +134,7 @@ class FlowCell {
     x.s = interpolate(Table::N[q], cell.s);
     x.k_p = cell.k_p;
     x.radius = Model::Coordinates::axisymmetric ? interpolate(Table::N[q], cell.X)[0] : T(1.0);
-    x.JxW = Rule::weights[q] * basis.det_J * Model::Coordinates::measure(x.radius);
+    x.JxW = Rule::weights[q] * basis.det_J * Model::Coordinates::measure(x.radius) * cell.fraction;
     ResidualFactors<T, dim> residual;
     new (&points_[q]) VmsPoint<Model, T, dim>(x, fluid, residual);
     for (int a = 0; a < n; ++a) {

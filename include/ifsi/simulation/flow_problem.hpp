@@ -209,6 +209,7 @@ class FlowProblem {
             .f = {},
             .s = s_,
             .k_p = k_p_,
+            .fraction = fraction_,
             .gravity = options_.gravity};
   }
 
@@ -242,8 +243,9 @@ class FlowProblem {
   FluidParameters<typename Model::Rheology> fluid_;
   BlockCsr<B> K_;
   std::vector<double> R_, reaction_, update_, zero_;
-  std::vector<double> s_, k_p_;  ///< stabilisation scales near immersed solids; empty without
-  std::vector<double> volumes_;  ///< of owned nodes, in an enclosed flow
+  std::vector<double> s_, k_p_;   ///< stabilisation scales near immersed solids; empty without
+  std::vector<double> fraction_;  ///< part of each cell that is fluid, with rigid bodies; empty without
+  std::vector<double> volumes_;   ///< of owned nodes, in an enclosed flow
   LinearSolver<B> solver_;
   std::function<void(const NewtonReport&)> watch_;
   double c_inertia_of_setup_ = -1.0;
