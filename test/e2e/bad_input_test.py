@@ -74,6 +74,10 @@ class BadInput(unittest.TestCase):
     def test_one_message_from_several_ranks(self):
         self.assert_refused(run("cavity", *settings(mesh__n="many"), ranks=2), CONFIGURATION, "has the wrong type")
 
+    def test_a_cut_that_is_no_symmetry_plane(self):
+        self.assert_refused(run("sphere", *settings(model="quarter3d", solid__offset=0.01)), CONFIGURATION,
+                            "no plane of symmetry", "solid.offset = 0.01", "expected solid.offset = 0", "rigid3d")
+
     def test_newton_that_gives_up(self):
         outcome = run("taylor_green", *settings(mesh__n=4, newton__max_iterations=1, newton__rtol=1e-14,
                                                 time__dt_min_factor=0.5))

@@ -61,4 +61,14 @@ template <class Coordinates, class Element, class Distance>
   return fraction;
 }
 
+/// Weights of the fluid's equations per local cell: the fraction outside of a body, and `interior` of what is
+/// inside.
+template <class Coordinates, class Element, class Distance>
+[[nodiscard]] std::vector<double> fluid_weights(const Mesh<Element>& mesh, const Distance& distance,
+                                                double interior) {
+  std::vector<double> weights = fluid_fraction<Coordinates>(mesh, distance);
+  for (double& w : weights) w = interior + (1.0 - interior) * w;
+  return weights;
+}
+
 }  // namespace ifsi

@@ -77,7 +77,8 @@ class BallMesh {
     std::array<int, dim> cut;
     for (int d = 0; d < dim; ++d) {
       cut[d] = static_cast<int>(mesh_.boundary_names.size());
-      if (first_[d] > 0) mesh_.boundary_names.push_back(std::string("cut_") + "xyz"[d]);
+      constexpr std::array names{"cut_x", "cut_y", "cut_z"};
+      if (first_[d] > 0) mesh_.boundary_names.emplace_back(names[d]);
     }
     mark_boundaries(mesh_, [&](const Point& x) {
       for (int d = 0; d < dim; ++d)

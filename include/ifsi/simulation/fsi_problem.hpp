@@ -3,6 +3,7 @@
 /// Immersed fluid-structure interaction: solids that move with the fluid at their nodes, one system of the
 /// fluid's size.
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -123,6 +124,11 @@ class FsiProblem : public FlowProblem<Element, Model> {
     return this->force(boundary) + solids_.rate_of_momentum() - held_force();
   }
 
+  /// Part of each local cell that counts as fluid, for the positions of the solids' nodes (eq. 20).
+  using FractionAt = std::function<std::vector<double>(const std::vector<Point>& x)>;
+  /// Without it all of the box does, and the solids carry the excess over it.
+  void set_fraction(FractionAt fraction) { fraction_at_ = std::move(fraction); }
+
   /// One step; when the report says it did not converge nothing has changed.
   StepReport step(double dt) {
     begin_step(dt);
@@ -234,6 +240,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
     cut_.update(C_);
     this->k_p_.assign(mesh().n_cells(), 1.0);
     for (int c : cut_.cells()) this->k_p_[c] = fsi_.k_p;
+    if (fraction_at_) this->fraction_ = fraction_at_(C_.positions());
     if (fsi_.s.s_max > 1.0) this->s_ = cut_.stabilisation(fsi_.s);
     update_pattern();
   }
@@ -355,6 +362,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   ImmersedSolids<Body> solids_;
   Interpolation<Element> C_;
   CutCells<Element> cut_;
+  FractionAt fraction_at_;
   CouplingMatrix<Element> K_s_;
   BlockCsr<Flow::B> K_s_constrained_;
   ConstraintMask mask_s_;  ///< of the layout of K_s

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -76,10 +77,8 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
 
   [[nodiscard]] const RigidBody<Flow::dim, Coordinates>& body(int b) const { return bodies_[b].motion; }
   [[nodiscard]] const Interpolation<Element>& interpolation() const { return C_; }
-  [[nodiscard]] const PatchedSolver<Flow::B>& linear_solver() const { return patched_; }
   /// Part of each local cell that counts as fluid, as of the last step.
   [[nodiscard]] const std::vector<double>& fraction() const { return this->fraction_; }
-  [[nodiscard]] int n_multipliers() const { return constraint_.n_points(); }
 
   /// One step; when the report says it did not converge nothing has changed.
   NewtonReport step(double dt) {
@@ -195,12 +194,12 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     cut_.update(C_);
     this->k_p_.assign(mesh().n_cells(), 1.0);
     for (int c : cut_.cells()) this->k_p_[c] = rigid_.k_p;
-    this->fraction_ = fluid_fraction<Coordinates>(mesh(), [&](const Point& x) {
+    const auto distance = [&](const Point& x) {
       double d = std::numeric_limits<double>::infinity();
       for (const Immersed& body : bodies_) d = std::min(d, body.distance(body.motion.reference(x)));
       return d;
-    });
-    for (double& f : this->fraction_) f = rigid_.interior + (1.0 - rigid_.interior) * f;
+    };
+    this->fraction_ = fluid_weights<Coordinates>(mesh(), distance, rigid_.interior);
     P_.clear();
     for (const Immersed& body : bodies_)
       for (const Point& X : body.points) P_.push_back(Motion::velocity_at(body.motion.lever(X)));

@@ -1,17 +1,12 @@
 #pragma once
 /// \file
-/// What the sphere case is made of: parameters, meshes, bodies, the fall itself.
+/// The falling sphere as its driver sees it: parameters, and what a fall gives.
 
-#include <array>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "ifsi/assembly/rigid_shape.hpp"
-#include "ifsi/mesh/ball.hpp"
-#include "ifsi/simulation/axisymmetric_flow.hpp"
 #include "ifsi/simulation/fsi_case.hpp"
 #include "ifsi/simulation/rigid_fsi_problem.hpp"
 
@@ -24,7 +19,8 @@ struct SphereOptions {
   static constexpr double v_rigid = 0.509767;  ///< of the reference calculation, cm/s
 
   std::string model = "axisymmetric", body = "rigid", sweep = "none";
-  double n = 10.0, phase = 0.0, growth = 1.05, spacing = 0.0, radius_correction = 0.0, offset = 0.0;
+  double n = 10.0, phase = 0.0, growth = 1.05, spacing = 0.0, radius_correction = 0.0, offset = 0.0,
+         interior = 1e-2;
   double rho_f = 1.0, rho_s = 1.5, mu = 10.0, C0 = 33550.0, kappa = 3355.0;
   bool steady = false;
   TimeOptions time;
@@ -43,10 +39,13 @@ struct SphereOptions {
     params.add("steady", steady, "-", "terminal velocity at the initial place without time steps (rigid)");
     params.add("mesh.n", n, "-", "fluid cells along the radius of the sphere", {2.0, 400.0});
     params.add("mesh.phase", phase, "-", "shift of the fluid mesh along z, in cells", {-1.0, 1.0});
-    params.add("mesh.growth", growth, "-", "growth of the cells away from the sphere", {1.0, 2.0});
+    params.add("mesh.growth", growth, "-", "growth of the cells away from the sphere at mesh.n = 10",
+               {1.0, 2.0});
     params.add("solid.spacing", spacing, "-", "solid over fluid cells (0: 1 rigid, 2 elastic)", {0.0, 10.0});
     params.add("solid.radius_correction", radius_correction, "-",
                "elastic: mesh the sphere smaller by this many fluid cells, its weight kept", {0.0, 1.0});
+    params.add("solid.interior", interior, "-", "elastic: part of the fluid's equations kept inside (1: all)",
+               {1e-12, 1.0});
     params.add("solid.offset", offset, "cm", "of the sphere from the axis of the tank (elastic3d, rigid3d)",
                {0.0, 0.05});
     params.add("solid.rho", rho_s, "g/cm^3", "density of the sphere", positive);
@@ -62,6 +61,8 @@ struct SphereOptions {
   }
   [[nodiscard]] bool is_cut() const { return model == "axisymmetric" || model == "quarter3d"; }
   [[nodiscard]] double h() const { return a / n; }
+  /// Growth per cell, so that meshes of all sizes are refinements of one.
+  [[nodiscard]] double growth_per_cell() const { return std::pow(growth, 10.0 / n); }
   /// Cells of the solid in those of the fluid.
   [[nodiscard]] double solid_spacing() const { return spacing > 0.0 ? spacing : is_rigid() ? 1.0 : 2.0; }
 
@@ -93,68 +94,6 @@ struct SphereOptions {
   }
 };
 
-/// An axis with cells of size h between `first` and `last`, growing beyond towards `lower` and `upper`.
-inline Axis refined_axis(double lower, double first, double last, double upper, double h, double growth) {
-  const auto outwards = [&](double from, double to) {
-    const double length = to - from, g = std::max(growth, 1.0001);
-    const double n = std::ceil(std::log(1.0 + (g - 1.0) * length / h) / std::log(g));
-    return axis_from_first_cell(from, to, std::max(2, static_cast<int>(n)), h);
-  };
-  const int n = static_cast<int>(std::lround((last - first) / h));
-  const Axis axis = join(uniform_axis(first, first + n * h, n), outwards(first + n * h, upper));
-  return first > lower ? join(reflect(outwards(-first, -lower)), axis) : axis;
-}
-
-/// Equal cells around the way of the sphere, larger ones beyond.
-inline Axis sphere_heights(const SphereOptions& o) {
-  const double reach = 1.4 * o.a, way = o.steady ? 0.0 : 0.25 * o.a;
-  const double below = o.z_0 + (o.phase - std::ceil((reach + way) / o.h())) * o.h();
-  return refined_axis(0.0, below, o.z_0 + reach, o.tank_height, o.h(), o.growth);
-}
-
-/// The tank: boundaries surface, bottom, top, and the symmetry planes cut_x, cut_y (cut_x is the axis).
-template <class Element>
-GlobalMesh<Element> tank_mesh(const SphereOptions& o) {
-  const double h = o.h(), reach = 1.4 * o.a;
-  if constexpr (Element::dim == 2) {
-    auto mesh = box<Element>({refined_axis(0.0, 0.0, reach, o.tank_radius, h, o.growth), sphere_heights(o)});
-    mesh.boundary_names = {"cut_x", "surface", "bottom", "top"};
-    return mesh;
-  } else {
-    // The rounded square reaches 0.854 of its corner radius along the axes.
-    const double corner = reach / 0.854;
-    const Axis out = refined_axis(0.0, 0.0, reach, o.tank_radius, h, o.growth);
-    const int n_core = 2 * static_cast<int>(std::lround(reach / h));
-    const int n_shell = static_cast<int>(out.size()) - 1 - n_core / 2;
-    const double ratio = (out[out.size() - 1] - out[out.size() - 2]) / h;
-    const bool cut = o.is_cut();
-    return extrude<Element>(ball<Quad1>({o.tank_radius, corner, n_core, n_shell, ratio}, {cut, cut}),
-                            sphere_heights(o), {"bottom", "top"});
-  }
-}
-
-template <int dim>
-FlowBoundary<dim> tank_boundary(const SphereOptions& o) {
-  FlowBoundary<dim> boundary;
-  boundary.no_slip("surface"), boundary.no_slip("bottom"), boundary.traction_free("top");
-  if (o.is_cut()) boundary.slip("cut_x");
-  if (o.is_cut() && dim == 3) boundary.slip("cut_y");
-  return boundary;
-}
-
-template <class Element>
-GlobalMesh<Element> sphere_mesh(const SphereOptions& o) {
-  constexpr int dim = Element::dim;
-  const double radius = o.a - o.radius_correction * o.h(),
-               cells = std::numbers::pi * o.n / (4.0 * o.solid_spacing());
-  const int n_core = 2 * std::max(1, static_cast<int>(std::lround(cells)));
-  std::array<bool, dim> half{};
-  for (int d = 0; d + 1 < dim; ++d) half[d] = o.is_cut();
-  Vec<double, dim> centre{};
-  centre[0] = o.offset, centre[dim - 1] = o.z_0;
-  return moved(ball<Element>({radius, 0.65 * radius, n_core, std::max(1, n_core / 4)}, half), centre);
-}
-
 /// What one fall gives.
 struct FallResult {
   double v = 0.0;  ///< downwards, at the end
@@ -163,112 +102,13 @@ struct FallResult {
   [[nodiscard]] double error() const { return v / SphereOptions::v_rigid - 1.0; }
 };
 
-/// Follows the velocity of the sphere and compares it with a curve.
-template <class Problem>
-class Fall {
- public:
-  /// \param curve CSV file of the velocity of a rigid sphere
-  Fall(Run& run, Problem& problem, const SphereOptions& o, std::string curve)
-      : run_(run), problem_(problem), o_(o), curve_(std::move(curve)) {}
-
-  /// Marches to the end. \param v_z velocity of the sphere upwards, \param volume_change relative
-  template <class Velocity, class Volume>
-  FallResult march_to_end(const Velocity& v_z, const Volume& volume_change) {
-    const std::clock_t start = std::clock();
-    CsvFile csv =
-        run_.csv("history.csv", {{"t", "s"}, {"v_z", "cm/s"}, {"volume_change", "-"}}, problem_.time());
-    Signal signal;
-    march(run_, problem_, o_.time, [&](double) {
-      signal.add(problem_.time(), v_z());
-      result_.volume_change = std::max(result_.volume_change, std::abs(volume_change()));
-      result_.violation = std::max(result_.violation, problem_.constraint_violation());
-      csv.row({problem_.time(), v_z(), volume_change()});
-    });
-    if (o_.time.end > 0.01)
-      result_.rms = rms_difference(signal, curve_, "v_z_cm_s", 0.01, o_.time.end) / o_.v_rigid;
-    return finish(-signal.last(), start);
-  }
-  FallResult steady(const std::function<double()>& v_z) {
-    const std::clock_t start = std::clock();
-    const NewtonReport report = problem_.solve_steady();
-    if (!report.converged) throw Error(ExitCode::nonlinear, "no steady fall found: " + report.failure);
-    run_.totals.newton += report.iterations, run_.totals.gmres += report.gmres, ++run_.totals.steps;
-    result_.violation = problem_.constraint_violation();
-    return finish(-v_z(), start);
-  }
-
- private:
-  FallResult finish(double v, std::clock_t start) {
-    result_.v = v;
-    result_.cpu = run_.comm().sum(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-    result_.dofs = run_.totals.dofs;
-    write_fields(run_, problem_);
-    return result_;
-  }
-
-  Run& run_;
-  Problem& problem_;
-  const SphereOptions& o_;
-  std::string curve_;
-  FallResult result_;
-};
-
-/// A rigid sphere; its weight and inertia are those of the true sphere (of a quarter in the model quarter3d).
-template <class Element, class Model>
-FallResult fall_rigid(Run& run, const SphereOptions& o, const std::string& curve) {
-  constexpr int dim = Element::dim;
-  using Coordinates = typename Model::Coordinates;
-  using Problem = RigidFsiProblem<Element, Model>;
-  using Motion = typename Problem::Motion;
-  const auto mesh = distribute(tank_mesh<Element>(o), run.comm());
-  const auto sphere = sphere_mesh<Element>(o);
-  auto shape = rigid_shape<Coordinates>(sphere);
-  shape.volume = o.volume / (o.model == "quarter3d" ? 4.0 : 1.0);
-  shape.centre = Vec<double, dim>::zero();
-  shape.centre[0] = o.offset, shape.centre[dim - 1] = o.z_0;
-  Vec<double, dim> weight{};
-  weight[dim - 1] = -(o.rho_s - o.rho_f) * shape.volume * o.g;
-  constexpr int along_z = Motion::axial ? 0 : dim - 1;
-  std::array<bool, Motion::n> free{};
-  free[along_z] = true;
-  if (!o.is_cut()) free.fill(true);
-  const double radius = o.a;
-  typename Problem::Immersed body{{shape, o.rho_s - o.rigid.interior * o.rho_f, weight, free},
-                                  boundary_points(sphere, 0),
-                                  [centre = shape.centre, radius](const auto& x) {
-                                    return std::sqrt(dot(x - centre, x - centre)) - radius;
-                                  }};
-  Problem problem(mesh, tank_boundary<dim>(o), o.rho_f, Newtonian{o.mu}, {body}, o.flow, o.rigid);
-  attach(run, problem);
-  Fall<Problem> fall(run, problem, o, curve);
-  const auto v_z = [&] { return problem.body(0).velocity()[along_z]; };
-  if (o.steady) return fall.steady(v_z);
-  if (!run.restarted() && !problem.start_step(1e-4 * o.time.dt).converged)
-    throw Error(ExitCode::nonlinear, "no acceleration found for the start of the fall");
-  return fall.march_to_end(v_z, [] { return 0.0; });
-}
-
-/// An elastic sphere with the weight of the true one, whatever the volume of its mesh.
-template <class Element, class Model, class Body>
-FallResult fall_elastic(Run& run, const SphereOptions& o, const std::string& curve) {
-  constexpr int dim = Element::dim;
-  using Problem = FsiProblem<Element, Body, Model>;
-  const auto mesh = distribute(tank_mesh<Element>(o), run.comm());
-  auto sphere = sphere_mesh<Element>(o);
-  const double volume = rigid_shape<typename Model::Coordinates>(sphere).volume;
-  const double true_volume = o.volume / (o.model == "quarter3d" ? 4.0 : 1.0);
-  SolidParameters<dim> solid{.rho_s = o.rho_s, .rho_f = o.rho_f, .mu_f = o.mu, .mu_s = 0.0, .gravity = {}};
-  solid.gravity[dim - 1] = -o.g * true_volume / volume;
-  std::vector<Body> bodies;
-  bodies.emplace_back("sphere", std::move(sphere), UncoupledNeoHookean(o.C0, o.kappa), solid);
-  Problem problem(mesh, tank_boundary<dim>(o), o.rho_f, Newtonian{o.mu}, std::move(bodies), o.flow, o.fsi);
-  attach(run, problem);
-  return Fall<Problem>(run, problem, o, curve)
-      .march_to_end([&] { return problem.solids().totals().momentum[dim - 1] / (o.rho_s * volume); },
-                    [&] { return problem.solids().totals().volume / volume - 1.0; });
-}
+/// The fall in (r, z), and in space. \param curve CSV file of the velocity of a rigid sphere
+FallResult fall_axisymmetric(Run& run, const SphereOptions& o, const std::string& curve);
+FallResult fall_in_space(Run& run, const SphereOptions& o, const std::string& curve);
 
 /// The fall of the model that the options name.
-FallResult fall(Run& run, const SphereOptions& o, const std::string& curve);
+inline FallResult fall(Run& run, const SphereOptions& o, const std::string& curve) {
+  return o.model == "axisymmetric" ? fall_axisymmetric(run, o, curve) : fall_in_space(run, o, curve);
+}
 
 }  // namespace ifsi
