@@ -1,5 +1,6 @@
 // Time of residual and tangent per element, against the peak of the core, and what gather and scatter add to
 // it.
+#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <random>

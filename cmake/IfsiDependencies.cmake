@@ -2,6 +2,7 @@
 # Those that show in public headers (MPI, Eigen) are linked publicly; the others are reached through
 # ifsi_dependencies only.
 include(CMakeFindDependencyMacro)
+set(MPI_CXX_SKIP_MPICXX TRUE)  # the C interface is used; the headers of the old C++ one take time to compile
 find_dependency(MPI COMPONENTS CXX)
 find_dependency(Eigen3 3.4 NO_MODULE)
 find_dependency(fmt)
