@@ -311,11 +311,12 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
   /// The fluid's parts; the further rows are diagonal rows.
   [[nodiscard]] SchurParts schur_parts() const {
     SchurParts parts = this->system_.schur_parts(this->fields(), this->fluid_);
-    parts.mass.resize(border_.layout().n_owned(), 1.0);
-    BlockCsr<1> laplacian, convection;
-    border_.extend(parts.laplacian, 1.0, laplacian);
-    border_.extend(parts.convection, 0.0, convection);
-    parts.laplacian = std::move(laplacian), parts.convection = std::move(convection);
+    const auto extend = [&](BlockCsr<1>& matrix, double diagonal) {
+      BlockCsr<1> extended;
+      border_.extend(matrix, diagonal, extended);
+      matrix = std::move(extended);
+    };
+    extend(parts.mass, 1.0), extend(parts.laplacian, 1.0), extend(parts.convection, 0.0);
     return parts;
   }
 
