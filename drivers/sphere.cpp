@@ -11,8 +11,8 @@
 //
 // Reference: 0.50977 cm/s, a rigid sphere at z = 2.5 in this tank (data/reference). Metrics: v_terminal at
 // the end; v_t_rms_ref, root mean square difference to the reference's curve after t = 0.01 s over its final
-// value; volume_change; with sweep = h the observed order_h; with sweep = phase the spread of the error over
-// shifts of the mesh.
+// value; volume_change, the largest; with sweep = h the observed order_h; with sweep = phase the spread of
+// the error over shifts of the mesh.
 #include "ifsi/simulation/sphere_case.hpp"
 
 using namespace ifsi;
@@ -38,10 +38,11 @@ void sphere(Run& run) {
   for (const SphereOptions& one : o.runs()) {
     const FallResult r = fall(run, one, IFSI_DATA_DIR "/reference/sphere_rigid_velocity_history.csv");
     table.row({one.h(), one.phase, r.v, r.error(), static_cast<double>(r.dofs), r.cpu});
-    char line[160];
-    std::snprintf(line, sizeof line,
-                  "a/h %.4g  phase %.2f  v %.6f cm/s  error %+.3f %%  unknowns %ld  cpu %.1f s", one.n,
-                  one.phase, r.v, 100.0 * r.error(), r.dofs, r.cpu);
+    char line[200];
+    std::snprintf(
+        line, sizeof line,
+        "a/h %.4g  phase %.2f  v %.6f cm/s  error %+.3f %%  unknowns %ld  cpu %.1f s  |C^T v - v_s| < %.0e",
+        one.n, one.phase, r.v, 100.0 * r.error(), r.dofs, r.cpu, r.violation + 1e-16);
     run.log(line);
     results.push_back(r);
   }
@@ -49,7 +50,6 @@ void sphere(Run& run) {
   run.metric("v_terminal", last.v, "cm/s");
   run.metric("v_t_rms_ref", last.rms);
   run.metric("volume_change", last.volume_change);
-  run.metric("constraint_max", last.violation, "cm/s");
   run.check("v_terminal", last.v, o.v_rigid, tolerance(o),
             "rigid sphere, axisymmetric Q2-Q1, data/reference");
   if (o.is_rigid() && !o.steady) run.check("v_t_rms_ref", last.rms, 0.0, 0.01, "the same, after t = 0.01 s");

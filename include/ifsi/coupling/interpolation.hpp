@@ -102,6 +102,18 @@ class Interpolation {
     return points;
   }
 
+  /// Throws Error(configuration) when some node lies outside the mesh. Collective. \param what the nodes are
+  void require_all_found(const std::string& what) const {
+    if (lost_.empty()) return;
+    const LostPoint lost = lost_points()[0];
+    std::string at;
+    for (double x : lost.position.data) at.append(" ").append(std::to_string(x));
+    throw Error(ExitCode::configuration, std::to_string(lost_.size()) + " " + what +
+                                             " lie outside of the fluid mesh, number " +
+                                             std::to_string(lost.point) + " at" + at + " by " +
+                                             std::to_string(lost.distance) + "; expected all inside");
+  }
+
   /// C^T v. \param v local nodal values, ghosts up to date, `stride` numbers per node, the velocity first.
   /// \return velocities of all solid nodes, on every rank; zero for lost ones. Collective.
   [[nodiscard]] std::vector<Point> velocities(const double* v, int stride) const {

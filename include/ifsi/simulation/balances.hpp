@@ -12,7 +12,7 @@
 
 namespace ifsi {
 
-/// Where momentum and energy come from and go to in each step (eq. 21). Powers and forces hold at the time of
+/// Where momentum and energy come from and go to in each step (eq. 26). Powers and forces hold at the time of
 /// the equations; changes are those of the completed levels.
 template <class Problem>
 class Balances {

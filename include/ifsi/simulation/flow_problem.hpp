@@ -119,7 +119,7 @@ class FlowProblem {
   /// Force of the fluid on a boundary (eq. 12) at time state().time_alpha(), of the last step.
   [[nodiscard]] Point force(const std::string& boundary) const { return system_.force(boundary, reaction_); }
 
-  /// What the surroundings give to the fluid at time state().time_alpha() of the last step (eq. 21).
+  /// What the surroundings give to the fluid at time state().time_alpha() of the last step (eq. 26).
   [[nodiscard]] typename System::Supply supply() const {
     return system_.supply(state_.u, reaction_, fluid_.rho, state_.time_alpha());
   }

@@ -70,7 +70,7 @@ class FlowSystem {
     Vec<double, dim> momentum{};
     double energy = 0.0;
   };
-  /// That of the prescribed velocities and the tractions, less what the flow carries out (eq. 21).
+  /// That of the prescribed velocities and the tractions, less what the flow carries out (eq. 26).
   /// \param R residual before elimination, taken at u and time t.
   [[nodiscard]] Supply supply(std::span<const double> u, std::span<const double> R, double rho,
                               double t) const {

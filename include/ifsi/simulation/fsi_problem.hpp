@@ -22,7 +22,7 @@ namespace ifsi {
 struct FsiOptions {
   double rho_inf_solid = 0.0;  ///< beta and gamma of the solid's kinematics
   /// Of C within a step: "frozen" at the predicted positions; "updated", at the present ones, but held in the
-  /// tangent; "exact", with its derivative (eq. 20).
+  /// tangent; "exact", with its derivative (eq. 25).
   std::string treatment = "frozen";
   double k_p = 0.01;     ///< scale of the PSPG term in cells that hold solid nodes (eq. 13)
   StabilisationScale s;  ///< tau_M scale around the solid (eq. 4)
@@ -73,7 +73,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
         patched_(patched_options(),
                  [this] { return this->system_.schur_parts(this->fields(), this->fluid_); }) {
     C_.locate(solids_.positions());
-    if (!may_protrude && !C_.lost().empty()) report_outside();
+    if (!may_protrude) C_.require_all_found("solid nodes");
   }
 
   [[nodiscard]] const ImmersedSolids<Body>& solids() const { return solids_; }
@@ -147,7 +147,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   }
 
   /// Momentum and energy that the solids take from the fluid per time, at state().time_alpha() of the last
-  /// step (eq. 21).
+  /// step (eq. 26).
   [[nodiscard]] typename Flow::System::Supply taken_by_solids() const {
     constexpr int dim = Flow::dim;
     std::array<double, dim + 1> sums = taken_;
@@ -258,7 +258,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   }
 
   /// v = C^T v_f at the nodes. Where C follows the nodes this is an equation for each of them, since the
-  /// place depends on the velocity: Newton's method, with P = (I - (du/dv) grad v)^-1 (eq. 20).
+  /// place depends on the velocity: Newton's method, with P = (I - (du/dv) grad v)^-1 (eq. 25).
   void move_solids() {
     this->state_.new_velocities(new_v_);
     settled_ = true;
@@ -348,16 +348,6 @@ class FsiProblem : public FlowProblem<Element, Model> {
     return numbers;
   }
 
-  [[noreturn]] void report_outside() const {
-    const auto lost = C_.lost_points();
-    std::string at;
-    for (int i = 0; i < Flow::dim; ++i) at += " " + std::to_string(lost[0].position[i]);
-    throw Error(ExitCode::configuration, std::to_string(lost.size()) +
-                                             " solid nodes lie outside of the fluid mesh, node " +
-                                             std::to_string(lost[0].point) + " at" + at + " by " +
-                                             std::to_string(lost[0].distance) + "; expected all inside");
-  }
-
   FsiOptions fsi_;
   ImmersedSolids<Body> solids_;
   Interpolation<Element> C_;
@@ -368,7 +358,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   ConstraintMask mask_s_;  ///< of the layout of K_s
   PatchedSolver<Flow::B> patched_;
   std::vector<Point> R_s_;
-  std::vector<Block> P_;  ///< change of a node's velocity per change of the fluid's at its place (eq. 20)
+  std::vector<Block> P_;  ///< change of a node's velocity per change of the fluid's at its place (eq. 25)
   std::array<double, Flow::dim + 1> taken_{};  ///< momentum and energy per time
   bool settled_ = true;
   std::vector<double> new_v_, spread_;

@@ -72,7 +72,7 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     lambda_.assign(constraint_.n_points(), Point::zero());
     for (Immersed& body : bodies_) body.motion.begin_steady();
     C_.locate(expected_points());
-    if (!C_.lost().empty()) report_outside();
+    C_.require_all_found("points of rigid bodies");
   }
 
   [[nodiscard]] const RigidBody<Flow::dim, Coordinates>& body(int b) const { return bodies_[b].motion; }
@@ -190,7 +190,7 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
   /// C, cut cells, fluid fractions and the patch where the bodies are expected.
   void place_bodies() {
     C_.locate(expected_points());
-    if (!C_.lost().empty()) report_outside();
+    C_.require_all_found("points of rigid bodies");
     cut_.update(C_);
     this->k_p_.assign(mesh().n_cells(), 1.0);
     for (int c : cut_.cells()) this->k_p_[c] = rigid_.k_p;
@@ -331,16 +331,6 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     std::vector<long> result(count);
     std::iota(result.begin(), result.end(), 0L);
     return result;
-  }
-
-  [[noreturn]] void report_outside() const {
-    const auto lost = C_.lost_points();
-    std::string at;
-    for (int i = 0; i < Flow::dim; ++i) at += " " + std::to_string(lost[0].position[i]);
-    throw Error(ExitCode::configuration, std::to_string(lost.size()) +
-                                             " points of rigid bodies lie outside of the fluid mesh, point " +
-                                             std::to_string(lost[0].point) + " at" + at + " by " +
-                                             std::to_string(lost[0].distance) + "; expected all inside");
   }
 
   RigidFsiOptions rigid_;
