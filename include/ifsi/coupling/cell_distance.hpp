@@ -14,7 +14,7 @@
 
 namespace ifsi {
 
-/// Calls visit.operator()<FaceElement>(face_nodes) for each face of the reference cell.
+/// Calls `visit.operator()<FaceElement>(face_nodes)` for each face of the reference cell.
 template <class Element, class Visit>
 void for_each_cell_face(Visit&& visit) {
   for (int face = 0; face < Element::n_faces; ++face) {

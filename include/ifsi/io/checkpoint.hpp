@@ -31,7 +31,7 @@ class CheckpointWriter {
   /// that can.
   void array(const std::string& name, const double* values, int block, const std::vector<long>& keys);
 
-  /// Collective. Writes `folder`/checkpoint_<step>.ifsi (whole or not at all) and returns its path; of the
+  /// Collective. Writes `folder/checkpoint_<step>.ifsi` (whole or not at all) and returns its path; of the
   /// others keeps only the one before. Throws Error(file).
   std::string save(const std::string& folder, long step) const;
 

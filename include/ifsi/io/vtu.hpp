@@ -35,7 +35,7 @@ void write_vtu(const std::string& file, const VtuPiece& piece, VtuPrecision prec
 void write_pvtu(const std::string& file, const std::vector<std::string>& pieces, const VtuPiece& like,
                 VtuPrecision precision);
 
-/// Grids over time: <folder>/<name>.pvd names <name>_<frame>.vtu, or .pvtu and a .vtu per rank.
+/// Grids over time: `<folder>/<name>.pvd` names `<name>_<frame>.vtu`, or .pvtu and a .vtu per rank.
 class VtuSeries {
  public:
   VtuSeries(Communicator comm, std::string folder, std::string name,

@@ -8,7 +8,7 @@
 
 namespace ifsi {
 
-/// Calls f.template operator()<E>() for the element of the list whose name it is.
+/// Calls `f.template operator()<E>()` for the element of the list whose name it is.
 /// \throws Error (configuration) naming the elements there are.
 template <class... Elements, class F>
 void dispatch_element(const std::string& name, F&& f) {

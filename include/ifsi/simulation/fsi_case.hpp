@@ -244,7 +244,7 @@ class TipHistory {
     run_.metric("energy_lost", balances_.lost_part());
     extremes_.report(run_);
   }
-  /// Root mean square differences to the curves <file>_dx_<curve>.csv and <file>_dy_<curve>.csv.
+  /// Root mean square differences to the curves `<file>_dx_<curve>.csv` and `<file>_dy_<curve>.csv`.
   void compare(const std::string& file, const std::string& curve) const {
     const double rms_x = rms_difference(dx_, file + "_dx_" + curve + ".csv", "dx_cm", 0.0, t_end_);
     const double rms_y = rms_difference(dy_, file + "_dy_" + curve + ".csv", "dy_cm", 0.0, t_end_);
