@@ -78,6 +78,10 @@ class BadInput(unittest.TestCase):
         self.assert_refused(run("sphere", *settings(model="quarter3d", solid__offset=0.01)), CONFIGURATION,
                             "no plane of symmetry", "solid.offset = 0.01", "expected solid.offset = 0", "rigid3d")
 
+    def test_incompressible_solid_in_a_displacement_formulation(self):
+        self.assert_refused(run("turek_hron", *settings(solid__nu=0.5)), CONFIGURATION, "solid.nu = 0.5 is out of range",
+                            "0.4999")
+
     def test_newton_that_gives_up(self):
         outcome = run("taylor_green", *settings(mesh__n=4, newton__max_iterations=1, newton__rtol=1e-14,
                                                 time__dt_min_factor=0.5))

@@ -119,6 +119,35 @@ TEST(CylinderChannel, TheFlagOfTurekHronLiesInFineEqualCells) {
   EXPECT_NEAR(volume(mesh), 2.5 * 0.41 - std::numbers::pi * 0.0025, 1e-8);
 }
 
+// The rigid flag is a hole with straight sides that begins on the circle.
+TEST(CylinderChannel, TheFlagCanBeCutOut) {
+  CylinderChannel channel = turek_hron_channel();
+  channel.band_half_height = channel.flag_half_height;
+  channel.band_end = 0.6;
+  channel.n_band_rows = 4;
+  channel.n_beside_band = 9;
+  channel.cut_flag = true;
+  const auto mesh = channel_with_cylinder<Quad2>(channel);
+  check(mesh);
+  EXPECT_TRUE(boundary_is_exterior(mesh));
+  EXPECT_TRUE(faces_conform(mesh));
+  const double root = 0.2 + std::sqrt(0.05 * 0.05 - 0.01 * 0.01), half_angle = std::asin(0.2);
+  const double under_arc =
+      0.0025 * half_angle + 0.01 * (root - 0.2);  // area of the disc within the flag's height
+  auto length = boundary_measures(mesh);
+  EXPECT_NEAR(length["flag"], 2 * (0.6 - root) + 0.02, 1e-12);
+  EXPECT_NEAR(length["cylinder"], 0.1 * (std::numbers::pi - half_angle), 1e-7);
+  EXPECT_NEAR(volume(mesh), 2.5 * 0.41 - std::numbers::pi * 0.0025 - (0.02 * 0.4 - under_arc), 1e-7);
+  for (const auto& face : mesh.boundary_faces)
+    if (mesh.boundary_names[face.boundary] == "flag")
+      for (int a : Quad2::face_nodes(face.local_face)) {
+        const auto& x = mesh.points[mesh.cells[face.cell][a]];
+        EXPECT_TRUE(std::abs(std::abs(x[1] - 0.2) - 0.01) < 1e-14 || std::abs(x[0] - 0.6) < 1e-14);
+      }
+  channel.band_half_height = 0.02;
+  EXPECT_THROW(channel_with_cylinder<Quad2>(channel), Error);
+}
+
 TEST(CylinderChannel, NonsenseIsRefused) {
   const auto broken = [](auto change) {
     CylinderChannel channel;

@@ -43,8 +43,9 @@ FlowBoundary<2> channel() {
 
 struct Probed : FsiProblem<Quad1, Body> {
   using Base = FsiProblem<Quad1, Body>;
-  Probed(const Mesh<Quad1>& mesh, const FlowOptions& flow, const FsiOptions& fsi)
-      : Base(mesh, channel(), 1.0, Newtonian{0.1}, leaflet(), flow, fsi) {}
+  Probed(const Mesh<Quad1>& mesh, const FlowOptions& flow, const FsiOptions& fsi,
+         std::vector<Body> bodies = leaflet(), FlowBoundary<2> boundary = channel())
+      : Base(mesh, std::move(boundary), 1.0, Newtonian{0.1}, std::move(bodies), flow, fsi) {}
   using Base::R_;
   std::vector<double>& unknowns() { return this->state_.u; }
   void moved() { this->state_.update_rate(); }
@@ -148,6 +149,79 @@ TEST(FsiProblem, ABodyOutsideIsRefused) {
       Error);
 }
 
+Body bar(const std::string& name, const Vec<double, 2>& lower, const Vec<double, 2>& upper) {
+  return {name, box<Quad1>(lower, upper, {2, 12}), NeoHookean(Lame::from_young(2e3, 0.4)),
+          Body::Parameters{.rho_s = 1.5, .rho_f = 1.0, .mu_f = 0.1, .mu_s = 0.0, .gravity = {}}};
+}
+
+// Two leaflets opposite each other in a symmetric flow move as mirror images; each has its own law and
+// numbers.
+TEST(FsiProblem, TwoBodiesMoveAsMirrorImages) {
+  const auto mesh = channel_mesh(Communicator());
+  std::vector<Body> pair;
+  pair.push_back(bar("lower", {0.92, 0.0}, {0.98, 0.37}));
+  pair.push_back(bar("upper", {0.92, 0.63}, {0.98, 1.0}));
+  Probed problem(mesh, flow_options(), fsi_options(0.0), pair);
+  for (int k = 0; k < 4; ++k) ASSERT_TRUE(problem.step(0.01).converged);
+  const auto& solids = problem.solids();
+  double largest = 0.0;
+  for (int a = 0; a < pair[0].n_nodes(); ++a) {
+    const auto& X = pair[0].mesh().points[a];
+    int mirrored = 0;
+    while (std::abs(pair[1].mesh().points[mirrored][0] - X[0]) > 1e-9 ||
+           std::abs(pair[1].mesh().points[mirrored][1] - (1.0 - X[1])) > 1e-9)
+      ++mirrored;
+    const auto u = solids.displacement(a), v = solids.displacement(solids.first_node(1) + mirrored);
+    EXPECT_NEAR(u[0], v[0], 1e-7);
+    EXPECT_NEAR(u[1], -v[1], 1e-7);
+    largest = std::max(largest, std::abs(u[0]));
+  }
+  EXPECT_GT(largest, 1e-4);
+}
+
+TEST(FsiProblem, BodiesThatOverlapAreRefused) {
+  const auto mesh = channel_mesh(Communicator());
+  const auto refused = [&](Body one, Body other) {
+    try {
+      Probed(mesh, flow_options(), fsi_options(0.0), {std::move(one), std::move(other)});
+      return std::string();
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::configuration);
+      return std::string(e.what());
+    }
+  };
+  const std::string message =
+      refused(bar("one", {0.9, 0.0}, {1.0, 0.6}), bar("other", {0.97, 0.0}, {1.07, 0.6}));
+  EXPECT_NE(message.find("'other'"), std::string::npos) << message;
+  EXPECT_NE(message.find("overlap at ("), std::string::npos) << message;
+  EXPECT_NE(refused(bar("one", {0.9, 0.0}, {1.0, 0.6}), bar("same", {0.9, 0.0}, {1.0, 0.6})), "");
+  EXPECT_EQ(refused(bar("one", {0.9, 0.0}, {1.0, 0.6}), bar("touches", {1.0, 0.0}, {1.1, 0.6})), "");
+  EXPECT_EQ(refused(bar("one", {0.9, 0.0}, {1.0, 0.6}), bar("apart", {1.2, 0.0}, {1.3, 0.6})), "");
+}
+
+// At rest the fluid carries the mass it gives way to (eq. 27): the excess weight that the support feels, less
+// the whole weight. A load on the surface of the body reaches the support as well.
+TEST(FsiProblem, ForceOnABodyAtRestIsItsBuoyancy) {
+  const auto mesh = channel_mesh(Communicator());
+  std::vector<Body> body;
+  body.push_back(bar("leaflet", {0.9, 0.0}, {1.0, 0.6}));
+  body[0].parameters.gravity = {0.02, -0.3};
+  body[0].add_load("right", {-0.005, 0.0});
+  auto still = channel();
+  still.no_slip("left");
+  FlowOptions options = flow_options();
+  options.newton.rtol = 1e-7;
+  Probed problem(mesh, options, fsi_options(0.0), body, still);
+  for (int k = 0; k < 60; ++k) {
+    const NewtonReport report = problem.step(k < 20 ? 0.05 : 0.5);
+    ASSERT_TRUE(report.converged) << k << " " << report.failure;
+  }
+  const double area = 0.06;
+  const auto F = problem.force_with_bodies("bottom");
+  EXPECT_NEAR(F[0], -1.0 * 0.02 * area - 0.005 * 0.6, 2e-6);
+  EXPECT_NEAR(F[1], 1.0 * 0.3 * area, 2e-6);
+}
+
 // The tangent of the coupled system against central differences of its residual along a random direction.
 TEST(FsiProblem, TangentIsTheDerivativeOfTheResidual) {
   const auto mesh = channel_mesh(Communicator());
@@ -161,6 +235,9 @@ TEST(FsiProblem, TangentIsTheDerivativeOfTheResidual) {
     flow.rho_inf = rho_inf;
     Probed problem(mesh, flow, fsi_options(rho_inf_solid, treatment));
     for (int k = 0; k < 3; ++k) ASSERT_TRUE(problem.step(0.01).converged);
+    // Loads of any size: the state need not balance them.
+    problem.bodies()[0].parameters.gravity = {3.0, -1.0};
+    problem.bodies()[0].add_load("right", {1.0, 2.0}, 400.0);
     problem.assemble_tangent();
     std::vector<double> direction(problem.unknowns().size(), 0.0);
     const auto x = mesh.node_coordinates();

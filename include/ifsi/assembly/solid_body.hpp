@@ -61,6 +61,9 @@ using CellTangentSink = std::function<void(int cell, std::span<const double> R, 
 using FaceResidualSink = std::function<void(std::span<const int> nodes, std::span<const double> R)>;
 using FaceTangentSink =
     std::function<void(std::span<const int> nodes, std::span<const double> R, std::span<const double> K)>;
+/// The same of a face, with the cell it belongs to.
+using LoadSink = std::function<void(int cell, std::span<const int> nodes, std::span<const double> R,
+                                    std::span<const double> K)>;
 
 /// A deformable body on its own mesh, which every rank holds whole; work is shared by lists of cells.
 /// \tparam Law a SolidLaw, \tparam Formulation Displacement or MeanDilatation, \tparam Coordinates Cartesian
@@ -122,6 +125,23 @@ class SolidBody {
   /// Pressure that follows the surface (force per current area, inwards).
   void add_pressure(double pressure, std::span<const double> u, const StateSlopes& slopes,
                     std::span<const int> faces, const FaceTangentSink& sink) const;
+
+  /// Dead traction and following pressure, as above, that act on a boundary from now on. Both may change
+  /// between steps. \return its number in loads().
+  int add_load(const std::string& boundary_name, const Vec<double, dim>& traction, double pressure = 0.0) {
+    loads_.push_back({faces_on(boundary_name), traction, pressure});
+    return static_cast<int>(loads_.size()) - 1;
+  }
+  struct Load {
+    std::vector<int> faces;
+    Vec<double, dim> traction;
+    double pressure;
+  };
+  [[nodiscard]] std::vector<Load>& loads() { return loads_; }
+  [[nodiscard]] const std::vector<Load>& loads() const { return loads_; }
+  /// Residual and tangent of all loads times a factor, face by face. The tangent of a dead load is empty.
+  void add_loads(double factor, std::span<const double> u, const StateSlopes& slopes,
+                 const LoadSink& sink) const;
 
   /// Stress and strain, averaged over the cells around each node with weights int |N_a| dV.
   [[nodiscard]] SolidFields fields(std::span<const double> u) const;
@@ -243,6 +263,7 @@ class SolidBody {
   std::string name_;
   GlobalMesh<Element> mesh_;
   Law law_;
+  std::vector<Load> loads_;
 };
 
 template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
@@ -361,6 +382,23 @@ void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_pressure(double pressure,
       sink(std::span<const int>(nodes), std::span<const double>(r.R[0].data, nodes.size() * dim),
            std::span<const double>(r.K[0][0].data, nodes.size() * nodes.size() * dim * dim));
     });
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_loads(double factor, std::span<const double> u,
+                                                             const StateSlopes& slopes,
+                                                             const LoadSink& sink) const {
+  for (const Load& load : loads_)
+    for (const int& f : load.faces) {
+      const int cell = mesh_.boundary_faces[f].cell;
+      add_traction(factor * load.traction, {&f, 1},
+                   [&](std::span<const int> nodes, std::span<const double> R) { sink(cell, nodes, R, {}); });
+      if (load.pressure != 0.0)
+        add_pressure(factor * load.pressure, u, slopes, {&f, 1},
+                     [&](std::span<const int> nodes, std::span<const double> R, std::span<const double> K) {
+                       sink(cell, nodes, R, K);
+                     });
+    }
 }
 
 template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,29 @@ class FsiPictures {
   double interval_, next_ = 0.0;
 };
 
+/// What to tell a user about a ratio of solid to fluid node spacing: empty up to 1. A line of cells that
+/// nodes h_s apart run through has nodes in h/h_s of its cells; nothing holds the fluid back in the others.
+[[nodiscard]] inline std::string coarse_solid_warning(double ratio) {
+  if (ratio <= 1.0) return {};
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "warning: solid nodes are up to %.3g fluid spacings apart: %.0f %% of the cells that the solid crosses "
+      "there hold none of them and let the fluid through; expected 1 at most, 0.67 to be tight",
+      ratio, 100.0 * (1.0 - 1.0 / ratio));
+  return text;
+}
+
+/// As for any flow; also says which nodes are held outside of the fluid, and when a solid is too coarse.
+template <class Element, class Body, class Model>
+void attach(Run& run, FsiProblem<Element, Body, Model>& problem) {
+  attach<FsiProblem<Element, Body, Model>>(run, problem);  // the one above it in flow_case.hpp
+  if (const auto n = problem.interpolation().lost().size(); n > 0)
+    run.log(std::to_string(n) + " solid nodes lie outside of the fluid mesh and are held at their place");
+  if (const std::string warning = coarse_solid_warning(problem.ratio().ratio); !warning.empty())
+    run.log(warning);
+}
+
 /// The node of a body nearest to a position.
 template <class Body>
 [[nodiscard]] int nearest_node(const Body& body, const Vec<double, Body::dim>& x) {
@@ -174,9 +198,7 @@ struct FsiExtremes {
     run.metric("det_f_min", det_F_min);
     run.metric("mesh_ratio_max", mesh_ratio);
     run.metric("lost_nodes_max", lost);
-    if (mesh_ratio > 1.0)
-      run.log("warning: solid nodes are up to " + std::to_string(mesh_ratio) +
-              " fluid spacings apart; above 1 the fluid leaks between them");
+    if (mesh_ratio > 1.0) run.log(coarse_solid_warning(mesh_ratio));
   }
 };
 

@@ -16,6 +16,7 @@
 #include "ifsi/linalg/patched_solver.hpp"
 #include "ifsi/simulation/flow_problem.hpp"
 #include "ifsi/simulation/immersed_solids.hpp"
+#include "ifsi/simulation/solid_overlap.hpp"
 
 namespace ifsi {
 
@@ -60,7 +61,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
   using Point = typename Flow::Point;
   using Block = Mat<double, Flow::dim>;
 
-  /// \throws Error (configuration) when a body lies partly outside of the mesh without `may_protrude`.
+  /// \throws Error (configuration) when a body lies partly outside of the mesh without `may_protrude`, or
+  /// when bodies overlap.
   FsiProblem(const Mesh<Element>& mesh, FlowBoundary<Flow::dim> boundary, double rho,
              typename Model::Rheology rheology, std::vector<Body> bodies, FlowOptions flow,
              FsiOptions options, bool may_protrude = false)
@@ -72,11 +74,14 @@ class FsiProblem : public FlowProblem<Element, Model> {
         K_s_(C_, solids_.cells()),
         patched_(patched_options(),
                  [this] { return this->system_.schur_parts(this->fields(), this->fluid_); }) {
+    refuse_overlap(solids_.bodies());
     C_.locate(solids_.positions());
     if (!may_protrude) C_.require_all_found("solid nodes");
   }
 
   [[nodiscard]] const ImmersedSolids<Body>& solids() const { return solids_; }
+  /// Gravity and surface loads of the bodies may be changed between steps.
+  [[nodiscard]] std::vector<Body>& bodies() { return solids_.bodies(); }
   [[nodiscard]] const Interpolation<Element>& interpolation() const { return C_; }
   [[nodiscard]] const PatchedSolver<Flow::B>& linear_solver() const { return patched_; }
   /// The largest ratio of solid to fluid node spacing in the present configuration.

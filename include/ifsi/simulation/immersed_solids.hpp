@@ -33,6 +33,7 @@ class ImmersedSolids {
   }
 
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
+  [[nodiscard]] std::vector<Body>& bodies() { return bodies_; }
   [[nodiscard]] const SolidCells& cells() const { return cells_; }
   [[nodiscard]] int n_nodes() const { return static_cast<int>(X_.size()); }
   [[nodiscard]] int first_node(int body) const { return first_node_[body]; }
@@ -120,6 +121,7 @@ class ImmersedSolids {
       else
         report = bodies_[b].residual(state, list, add_residual);
       if (report.cell >= 0) worst.merge(report.min_det_F, first_cell_[b] + report.cell);
+      add_loads(static_cast<int>(b), list, offset, R, tangent, matrix);
     }
     return worst;
   }
@@ -165,6 +167,35 @@ class ImmersedSolids {
   [[nodiscard]] static std::vector<Point> points(const std::vector<double>& x, std::vector<Point> origin) {
     for (std::size_t k = 0; k < x.size(); ++k) origin[k / dim][k % dim] += x[k];
     return origin;
+  }
+
+  /// Surface loads of a body on the faces of the listed cells (its own numbers), which begin at `offset` of
+  /// the list that `matrix` knows.
+  template <class MatrixSink>
+  void add_loads(int body, std::span<const int> list, std::size_t offset, std::span<Point> R, bool tangent,
+                 MatrixSink&& matrix) const {
+    constexpr int n = Body::n;
+    const std::span<const double> u(u_alpha_.data() + first_node_[body] * dim, bodies_[body].n_dofs());
+    bodies_[body].add_loads(
+        1.0, u, slopes(),
+        [&](int cell, std::span<const int> nodes, std::span<const double> R_f, std::span<const double> K_f) {
+          const auto at = std::lower_bound(list.begin(), list.end(), cell);
+          if (at == list.end() || *at != cell) return;
+          for (std::size_t k = 0; k < R_f.size(); ++k)
+            R[first_node_[body] + nodes[k / dim]][k % dim] += R_f[k];
+          if (!tangent || K_f.empty()) return;
+          const auto& of_cell = bodies_[body].mesh().cells[cell];
+          std::array<Mat<double, dim>, n * n> K;
+          K.fill(Mat<double, dim>::zero());
+          const auto place = [&](int node) {
+            return std::find(of_cell.begin(), of_cell.end(), node) - of_cell.begin();
+          };
+          for (std::size_t a = 0; a < nodes.size(); ++a)
+            for (std::size_t b = 0; b < nodes.size(); ++b)
+              std::copy_n(&K_f[(a * nodes.size() + b) * dim * dim], dim * dim,
+                          K[place(nodes[a]) * n + place(nodes[b])].data);
+          matrix(static_cast<int>(offset + (at - list.begin())), K.data());
+        });
   }
 
   /// The part of a sorted list of cells that belongs to a body, in the body's numbers, and where it begins.

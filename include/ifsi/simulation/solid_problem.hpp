@@ -68,12 +68,10 @@ class SolidProblem {
   }
   /// Force per reference area of a boundary.
   void add_traction(const std::string& boundary, const Vec<double, dim>& traction) {
-    tractions_.push_back({body_.faces_on(boundary), traction});
+    body_.add_load(boundary, traction);
   }
   /// Force per current area of a boundary, inwards.
-  void add_pressure(const std::string& boundary, double pressure) {
-    pressures_.push_back({body_.faces_on(boundary), pressure});
-  }
+  void add_pressure(const std::string& boundary, double pressure) { body_.add_load(boundary, {}, pressure); }
 
   /// Starts dynamics from this displacement and velocity (dim numbers per node).
   void set_initial(std::vector<double> u, std::vector<double> v) {
@@ -149,32 +147,18 @@ class SolidProblem {
   [[nodiscard]] SolidTotals<dim> totals() const { return body_.totals({u_, v_, a_}, body_.all_cells()); }
 
  private:
-  struct Traction {
-    std::vector<int> faces;
-    Vec<double, dim> value;
-  };
-  struct Pressure {
-    std::vector<int> faces;
-    double value;
-  };
-
   /// Everything that acts on the body at a state, and its tangent.
   DeformationReport evaluate(const SolidState& state, std::span<const double> u_before,
                              const StateSlopes& slopes, double load) {
     body_.parameters.gravity = load * gravity_;
     const auto report = system_.assemble(state, u_before, slopes);
     body_.parameters.gravity = gravity_;
-    for (const auto& t : tractions_)
-      body_.add_traction(load * t.value, t.faces, [&](std::span<const int> nodes, std::span<const double> R) {
-        system_.add_residual(nodes, R);
-      });
-    for (const auto& p : pressures_)
-      body_.add_pressure(
-          load * p.value, state.u, slopes, p.faces,
-          [&](std::span<const int> nodes, std::span<const double> R, std::span<const double> K) {
-            system_.add_residual(nodes, R);
-            system_.add_tangent(nodes, K);
-          });
+    body_.add_loads(
+        load, state.u, slopes,
+        [&](int, std::span<const int> nodes, std::span<const double> R, std::span<const double> K) {
+          system_.add_residual(nodes, R);
+          if (!K.empty()) system_.add_tangent(nodes, K);
+        });
     return report;
   }
 
@@ -188,8 +172,6 @@ class SolidProblem {
   Body body_;
   SolidSystem<Body> system_;
   Vec<double, dim> gravity_;
-  std::vector<Traction> tractions_;
-  std::vector<Pressure> pressures_;
   std::vector<double> u_, v_, a_;
   double time_ = 0;
   int n_newton_ = 0;
