@@ -3,12 +3,13 @@
 /// Which part of each fluid cell lies outside of a body.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "ifsi/element/geometry.hpp"
-#include "ifsi/element/tensor_cell.hpp"
 #include "ifsi/mesh/mesh.hpp"
+#include "ifsi/mesh/reference_lattice.hpp"
 
 namespace ifsi {
 

@@ -57,7 +57,8 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
   using Motion = RigidMotion<Flow::dim, Coordinates>;
   static constexpr int n = Motion::n;
 
-  /// \throws Error (configuration) when a body lies partly outside of the mesh.
+  /// \throws Error (configuration) when a body lies partly outside of the mesh, or the flow is enclosed and
+  /// options.interior below 1.
   RigidFsiProblem(const Mesh<Element>& mesh, FlowBoundary<Flow::dim> boundary, double rho,
                   typename Model::Rheology rheology, std::vector<Immersed> bodies, FlowOptions flow,
                   RigidFsiOptions options)
@@ -69,6 +70,7 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
         constraint_(C_, bodies_of_points(), static_cast<int>(bodies_.size())),
         border_(this->K_.shared_pattern(), constraint_.n_extra()),
         patched_(patched_options(), [this] { return schur_parts(); }) {
+    check_pressure_level();
     lambda_.assign(constraint_.n_points(), Point::zero());
     for (Immersed& body : bodies_) body.motion.begin_steady();
     C_.locate(expected_points());
@@ -165,6 +167,14 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     return report;
   }
 
+  /// With fractions a constant pressure is no longer without effect in cut cells.
+  void check_pressure_level() const {
+    if (this->system_.enclosed() && rigid_.interior < 1.0)
+      throw Error(ExitCode::configuration,
+                  "rigid.interior = " + std::to_string(rigid_.interior) +
+                      " in an enclosed flow, whose pressure is known up to a constant; expected "
+                      "rigid.interior = 1, or a boundary with a traction");
+  }
   [[nodiscard]] PatchedSolverOptions patched_options() const {
     PatchedSolverOptions o = rigid_.linear;
     o.enclosed = this->system_.enclosed();

@@ -41,7 +41,8 @@ struct SphereOptions {
     params.add("mesh.phase", phase, "-", "shift of the fluid mesh along z, in cells", {-1.0, 1.0});
     params.add("mesh.growth", growth, "-", "growth of the cells away from the sphere at mesh.n = 10",
                {1.0, 2.0});
-    params.add("solid.spacing", spacing, "-", "solid over fluid cells (0: 1 rigid, 2 elastic)", {0.0, 10.0});
+    params.add("solid.spacing", spacing, "-", "solid over fluid cells (0: 1, 1.4 in space, 2 elastic)",
+               {0.0, 10.0});
     params.add("solid.radius_correction", radius_correction, "-",
                "elastic: mesh the sphere smaller by this many fluid cells, its weight kept", {0.0, 1.0});
     params.add("solid.interior", interior, "-", "elastic: part of the fluid's equations kept inside (1: all)",
@@ -63,8 +64,11 @@ struct SphereOptions {
   [[nodiscard]] double h() const { return a / n; }
   /// Growth per cell, so that meshes of all sizes are refinements of one.
   [[nodiscard]] double growth_per_cell() const { return std::pow(growth, 10.0 / n); }
-  /// Cells of the solid in those of the fluid.
-  [[nodiscard]] double solid_spacing() const { return spacing > 0.0 ? spacing : is_rigid() ? 1.0 : 2.0; }
+  /// Cells of the solid in those of the fluid. Points of a cubed sphere crowd at its eight corners.
+  [[nodiscard]] double solid_spacing() const {
+    if (spacing > 0.0) return spacing;
+    return !is_rigid() ? 2.0 : model == "axisymmetric" ? 1.0 : 1.4;
+  }
 
   /// \throws Error (configuration) for choices that contradict each other.
   void check() const {
