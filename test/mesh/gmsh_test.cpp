@@ -19,7 +19,7 @@ using testing_mesh::boundary_measures;
 using testing_mesh::faces_conform;
 using testing_mesh::volume;
 
-const std::filesystem::path meshes = std::filesystem::path(__FILE__).parent_path() / "../../data/meshes";
+const std::filesystem::path meshes = IFSI_DATA_DIR "/meshes";
 
 std::string sample(const std::string& name) { return (meshes / name).string(); }
 
