@@ -112,7 +112,7 @@ class TurekHronCurves {
   /// Reads back what an interrupted run has written. \param file history.csv
   void read(const std::string& file, const std::vector<std::string>& figures, double t_end) {
     for (const std::string& figure : figures) {
-      const auto curve = read_profile(file, figure);
+      const auto curve = read_profile(file, figure + " [" + unit(figure) + "]");
       if (!curve) throw Error(ExitCode::file, file + ": no column \"" + figure + "\"");
       for (const auto& [t, value] : *curve)
         if (t <= t_end * (1.0 + 1e-12)) add(figure, t, value);
@@ -125,17 +125,16 @@ class TurekHronCurves {
     for (const TurekHronReference& ref : turek_hron_references()) {
       if (ref.test != test.name) continue;
       const Signal& curve = curves_.at(ref.figure);
-      const std::string unit = ref.figure[0] == 't' ? "mm" : "N/m";
       const std::string source = rigid ? "Turek & Hron 2006" : "Turek et al. 2010";
       if (test.steady()) {
-        run.metric(ref.figure, curve.last(), unit);
+        run.metric(ref.figure, curve.last(), unit(ref.figure));
         run.check(ref.figure, curve.last(), ref.mean, rigid ? 0.01 : 0.1, source);
         continue;
       }
       const double max = curve.max(t_from).value, min = curve.min(t_from).value;
       const double mean = 0.5 * (max + min), amplitude = 0.5 * (max - min), f = curve.frequency(t_from);
-      run.metric(ref.figure + "_mean", mean, unit);
-      run.metric(ref.figure + "_amplitude", amplitude, unit);
+      run.metric(ref.figure + "_mean", mean, unit(ref.figure));
+      run.metric(ref.figure + "_amplitude", amplitude, unit(ref.figure));
       run.metric(ref.figure + "_frequency", f, "Hz");
       const double tolerance = rigid ? 0.03 : 0.1, largest = std::max(std::abs(ref.mean), ref.amplitude);
       run.check_between(ref.figure + "_mean", mean, ref.mean - tolerance * largest,
@@ -146,6 +145,8 @@ class TurekHronCurves {
   }
 
  private:
+  static std::string unit(const std::string& figure) { return figure[0] == 't' ? "mm" : "N/m"; }
+
   std::map<std::string, Signal> curves_;
 };
 
