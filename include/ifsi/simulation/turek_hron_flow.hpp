@@ -12,7 +12,7 @@ namespace ifsi {
 struct TurekHronOptions {
   double refinement = 1.0;
   double ramp = 2.0, settle = 0.0, picture_every = 1.0;
-  int n_long = 80, n_thick = 4;  ///< cells of the flag at refinement 1
+  int n_long = 70, n_thick = 4;  ///< cells of the flag at refinement 1
   double nu_s = TurekHronTest::nu_s;
   bool same_bending = false;
   TimeOptions time;
