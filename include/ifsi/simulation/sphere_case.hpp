@@ -41,8 +41,7 @@ struct SphereOptions {
     params.add("mesh.phase", phase, "-", "shift of the fluid mesh along z, in cells", {-1.0, 1.0});
     params.add("mesh.growth", growth, "-", "growth of the cells away from the sphere at mesh.n = 10",
                {1.0, 2.0});
-    params.add("solid.spacing", spacing, "-", "solid over fluid cells (0: 1, 1.4 in space, 2 elastic)",
-               {0.0, 10.0});
+    params.add("solid.spacing", spacing, "-", "solid over fluid cells (0: by model, 1 to 2)", {0.0, 10.0});
     params.add("solid.radius_correction", radius_correction, "-",
                "elastic: mesh the sphere smaller by this many fluid cells, its weight kept", {0.0, 1.0});
     params.add("solid.interior", interior, "-", "elastic: part of the fluid's equations kept inside (1: all)",
@@ -67,7 +66,8 @@ struct SphereOptions {
   /// Cells of the solid in those of the fluid. Points of a cubed sphere crowd at its eight corners.
   [[nodiscard]] double solid_spacing() const {
     if (spacing > 0.0) return spacing;
-    return !is_rigid() ? 2.0 : model == "axisymmetric" ? 1.0 : 1.4;
+    if (model == "axisymmetric") return is_rigid() ? 1.0 : 2.0;
+    return is_rigid() ? 1.4 : 1.5;
   }
 
   /// \throws Error (configuration) for choices that contradict each other.
