@@ -79,7 +79,7 @@ class StepControl {
 };
 
 /// From this change within a step on, errors in time of more than 5 % were seen (docs/stability.md).
-inline constexpr double coarse_change = 0.25;
+inline constexpr double coarse_change = 0.6;
 
 /// A problem that steps in time: step(dt) leaves it unchanged when it does not converge.
 template <class P>
