@@ -8,6 +8,7 @@
 #include "ifsi/mesh/box.hpp"
 #include "ifsi/mesh/check.hpp"
 #include "ifsi/mesh/elevate.hpp"
+#include "ifsi/mesh/ring.hpp"
 #include "mesh/measure.hpp"
 
 namespace ifsi {
@@ -126,6 +127,13 @@ TEST(Elevate, BoundaryNodesMoveToTheCurve) {
 
 TEST(Elevate, PeriodicMeshesAreRefused) {
   EXPECT_THROW(elevate<Quad2>(box<Quad1>({0, 0}, {1, 1}, {3, 3}, {{true, false}})), Error);
+}
+
+TEST(Ring, ClosesAndNeedsThreeCellsAround) {
+  const auto mesh = ring_mesh<Quad1>({1.0, 2.0}, 0.5, 0.75, 12, 2);
+  EXPECT_EQ(mesh.n_cells(), 24);
+  EXPECT_EQ(mesh.points.size(), 36u);  // the first and the last column of nodes are one
+  EXPECT_THROW(ring_mesh<Quad1>({0.0, 0.0}, 0.5, 0.75, 2, 1), Error);
 }
 
 }  // namespace
