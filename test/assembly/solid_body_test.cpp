@@ -163,11 +163,13 @@ TYPED_TEST(SolidBodyContract, InternalForcesBalance) {
   }
 }
 
-/// Patch test: the residual of a constant deformation gradient vanishes at inner nodes of any mesh.
+/// Patch test: the residual of a constant deformation gradient vanishes at inner nodes of any mesh. In (r, z)
+/// that takes equal stretches along r and around the axis, and no shear.
 TYPED_TEST(SolidBodyContract, ConstantStressIsInEquilibrium) {
-  if (TestFixture::axisymmetric) GTEST_SKIP() << "constant gradients are not in equilibrium there";
   const auto body = TestFixture::make();
-  const auto R = residual(body, {TestFixture::affine(body, some_gradient<TestFixture::dim>())});
+  auto H = some_gradient<TestFixture::dim>();
+  if (TestFixture::axisymmetric) H(0, 1) = H(1, 0) = 0.0;
+  const auto R = residual(body, {TestFixture::affine(body, H)});
   std::vector<bool> on_boundary(body.n_nodes());
   for (const auto& name : body.mesh().boundary_names)
     for (int node : body.nodes_on(name)) on_boundary[node] = true;

@@ -19,7 +19,7 @@ namespace detail {
 template <class Coordinates, class Element, class Distance>
 double sampled_fraction(const std::array<Vec<double, Element::dim>, Element::n_nodes>& X, double diameter,
                         const Distance& distance, int per_side) {
-  static_assert(is_tensor_cell<Element>, "the fluid fraction of other cells is not implemented");
+  static_assert(is_tensor_cell<Element>, "expected quads or hexes: their parents are sampled on a grid");
   constexpr int dim = Element::dim;
   int n_samples = 1;
   for (int d = 0; d < dim; ++d) n_samples *= per_side;
