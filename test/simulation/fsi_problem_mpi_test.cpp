@@ -268,6 +268,19 @@ TEST(FsiProblem, TangentIsTheDerivativeOfTheResidual) {
   }
 }
 
+// Prescribed unknowns are out of the system: their columns are empty, those of other ranks' nodes included.
+TEST(FsiProblem, ColumnsOfPrescribedUnknownsAreEmpty) {
+  const auto mesh = channel_mesh(Communicator());
+  Probed problem(mesh, flow_options(), fsi_options(0.0));
+  ASSERT_TRUE(problem.step(0.01).converged);
+  std::vector<double> x(problem.unknowns().size(), 0.0);
+  const auto prescribed = [&](int k) { return (problem.mask()[k / 3] >> (k % 3) & 1) != 0; };
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = prescribed(static_cast<int>(k)) ? 1.0 : 0.0;
+  const auto y = problem.tangent_times(x);
+  for (int k = 0; k < mesh.n_owned_nodes() * 3; ++k)
+    if (!prescribed(k)) EXPECT_NEAR(y[k], 0.0, 1e-12) << "node " << k / 3;
+}
+
 // The midpoint rule (rho_inf = 1) neither makes nor takes momentum or energy: what is missing from the
 // balances is the VMS terms' part, which is small, and dissipates.
 TEST(FsiProblem, BalancesOfMomentumAndEnergyClose) {
