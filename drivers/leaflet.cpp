@@ -29,21 +29,22 @@ void leaflet(Run& run) {
   boundary.traction_free("right"), boundary.backflow("right", 0.5);
   boundary.slip("top"), boundary.no_slip("bottom");
 
-  using Body = SolidBody<Quad1, UncoupledNeoHookean>;
-  constexpr double height = 0.8;
-  const double half = 0.5 * o.thickness;
-  std::vector<Body> body;
-  body.emplace_back("leaflet", box<Quad1>({x_0 - half, 0.0}, {x_0 + half, height}, o.n_s),
-                    UncoupledNeoHookean(C0, kappa_ratio * C0), o.solid());
-  const int tip = nearest_node(body[0], {x_0, height});
-  FsiProblem<Quad1, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(body), o.flow, o.fsi);
-  attach(run, problem);
+  o.with_law(UncoupledNeoHookean(C0, kappa_ratio * C0), [&](const auto& law) {
+    using Body = SolidBody<Quad1, std::decay_t<decltype(law)>>;
+    constexpr double height = 0.8;
+    const double half = 0.5 * o.thickness;
+    std::vector<Body> body;
+    body.emplace_back("leaflet", box<Quad1>({x_0 - half, 0.0}, {x_0 + half, height}, o.n_s), law, o.solid());
+    const int tip = nearest_node(body[0], {x_0, height});
+    FsiProblem<Quad1, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(body), o.flow, o.fsi);
+    attach(run, problem);
 
-  TipHistory history(run, problem, o.time.end, o.picture_every, tip, "m");
-  march(run, problem, o.time, [&](double dt) { history.observe(dt); });
-  history.report(std::max(0.0, o.time.end - 1.0));
-  run.metric("tip_dy_min", history.dy().min(std::max(0.0, o.time.end - 1.0)).value, "m");
-  if (o.time.end >= 3.0) run.metric("periodicity", cycle_difference(history.dx(), o.time.end, 1.0));
+    TipHistory history(run, problem, o.time.end, o.picture_every, tip, "m");
+    march(run, problem, o.time, [&](double dt) { history.observe(dt); });
+    history.report(std::max(0.0, o.time.end - 1.0));
+    run.metric("tip_dy_min", history.dy().min(std::max(0.0, o.time.end - 1.0)).value, "m");
+    if (o.time.end >= 3.0) run.metric("periodicity", cycle_difference(history.dx(), o.time.end, 1.0));
+  });
 }
 
 int main(int argc, char** argv) {

@@ -39,6 +39,15 @@ CircumferentialFibre make() {
   return CircumferentialFibre(0.9, {0.2, -0.3});
 }
 
+template <>
+ThinSheet<NeoHookean> make() {
+  return {NeoHookean(Lame{1.3, 2.1}), {0.6, 0.8, 0.0}, 0.3, 0.7};
+}
+template <>
+ThinSheet<StVenantKirchhoff> make() {
+  return {StVenantKirchhoff(Lame{1.3, 2.1}), {0.6, 0.8, 0.0}, 0.3, 0.7};
+}
+
 /// A law where F has n rows and points have dim coordinates.
 template <class LawType, int n_, int dim_>
 struct Case {
@@ -99,11 +108,14 @@ Vec<T, n> lifted(const Vec<double, n>& a) {
   return v;
 }
 
-using All = ::testing::Types<
-    Case<NeoHookean, 2, 2>, Case<NeoHookean, 3, 3>, Case<NeoHookean, 3, 2>, Case<StVenantKirchhoff, 2, 2>,
-    Case<StVenantKirchhoff, 3, 3>, Case<UncoupledNeoHookean, 2, 2>, Case<UncoupledNeoHookean, 3, 3>,
-    Case<MooneyRivlin, 2, 2>, Case<MooneyRivlin, 3, 3>, Case<Yeoh, 2, 2>, Case<Yeoh, 3, 3>,
-    Case<CircumferentialFibre, 2, 2>, Case<CircumferentialFibre, 3, 3>, Case<CircumferentialFibre, 3, 2>>;
+using All =
+    ::testing::Types<Case<NeoHookean, 2, 2>, Case<NeoHookean, 3, 3>, Case<NeoHookean, 3, 2>,
+                     Case<StVenantKirchhoff, 2, 2>, Case<StVenantKirchhoff, 3, 3>,
+                     Case<UncoupledNeoHookean, 2, 2>, Case<UncoupledNeoHookean, 3, 3>,
+                     Case<MooneyRivlin, 2, 2>, Case<MooneyRivlin, 3, 3>, Case<Yeoh, 2, 2>, Case<Yeoh, 3, 3>,
+                     Case<CircumferentialFibre, 2, 2>, Case<CircumferentialFibre, 3, 3>,
+                     Case<CircumferentialFibre, 3, 2>, Case<ThinSheet<NeoHookean>, 2, 2>,
+                     Case<ThinSheet<NeoHookean>, 3, 3>, Case<ThinSheet<StVenantKirchhoff>, 2, 2>>;
 TYPED_TEST_SUITE(LawContract, All);
 
 TYPED_TEST(LawContract, ModelsTheConcept) { static_assert(SolidLaw<typename TypeParam::Law>); }
@@ -205,6 +217,30 @@ TYPED_TEST(PlaneStrain, IsTheThreeDimensionalLawAtUnitThirdStretch) {
     EXPECT_NEAR(P.data[i], P3(i / 2, i % 2), 1e-14);
     for (int j = 0; j < 4; ++j) EXPECT_NEAR(A(i, j), A3(i / 2 * 3 + i % 2, j / 2 * 3 + j % 2), 1e-13);
   }
+}
+
+/// Stretched and bent, the sheet is in plane stress; sheared, it resists as it was told.
+TEST(ThinSheet, IsInPlaneStress) {
+  const Lame lame{1.3, 2.1};
+  const double nu = 0.5 * lame.lambda / (lame.lambda + lame.mu), E = lame.young_modulus();
+  const ThinSheet<NeoHookean> law(NeoHookean(lame), {0.0, 1.0, 0.0}, 0.02, 1.0);
+  const Vec<double, 2> X = {0.0, 0.0};
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const Mat<double, 2> F = Mat<double, 2>{c, -s, s, c} * Mat<double, 2>{1.25, 0.0, 0.0, 0.8};  // det F = 1
+  const Vec<double, 2> N = {0.0, 1.0}, PN = law.first_piola(F, X) * N;
+  EXPECT_NEAR(PN[0], 0.0, 1e-13);
+  EXPECT_NEAR(PN[1], 0.0, 1e-13);
+  EXPECT_GT(law.first_piola(F, X)(0, 0), 0.1);
+  const auto A = law.tangent(Mat<double, 2>::identity(), X);
+  EXPECT_NEAR(A(0, 0), E / (1.0 - nu * nu) + 1.0, 1e-12);
+  EXPECT_NEAR(A(1, 1), 0.02, 1e-12);
+  EXPECT_NEAR(A(1, 2), 0.02, 1e-12);
+}
+
+TEST(ThinSheet, RefusesWhatIsNoSheet) {
+  const NeoHookean law(Lame{1.3, 2.1});
+  EXPECT_THROW(ThinSheet<NeoHookean>(law, {0.0, 2.0, 0.0}, 1.0, 1.0), Error);
+  EXPECT_THROW(ThinSheet<NeoHookean>(law, {0.0, 1.0, 0.0}, 0.0, 1.0), Error);
 }
 
 template <class Law>

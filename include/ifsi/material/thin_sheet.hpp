@@ -1,0 +1,154 @@
+#pragma once
+/// \file
+/// Laws of thin bodies: plane stress, and next to no stiffness against transverse shear.
+
+#include <array>
+
+#include "ifsi/material/moduli.hpp"
+#include "ifsi/material/solid_law.hpp"
+
+namespace ifsi {
+
+/// A law of the sheet's own plane, with little stiffness against shear through the thickness (eq. 29):
+///
+///     psi~(F) = min over d of psi(F Q + d (x) N) + shear / 2 |Q F^T F N|^2 + kappa / 2 (J - 1)^2,   Q = I -
+///     N (x) N
+///
+/// The director d replaces F N: stretched or bent, the sheet is in plane stress. In an immersed thin body
+/// this cures two errors of a three-dimensional law. Its nodes move as the fluid's shape functions allow,
+/// linearly within a cell, and a sheet thinner than a cell then bends with shear only, too stiff by the
+/// square of the ratio of cell to thickness. And a bent body that the fluid keeps incompressible asks for a
+/// pressure that jumps at its faces; a continuous pressure smears the jump over the cells outside. kappa
+/// keeps det F near one, where the fluid's pressure alone does so in the mean of a cell.
+template <SolidLaw Law>
+class ThinSheet {
+ public:
+  /// \param normal unit normal N of the undeformed sheet
+  /// \param shear, kappa stresses; of the order of 1/20 and 1/3 of Young's modulus
+  /// \throws Error (configuration) unless both are positive and |normal| = 1
+  ThinSheet(Law law, Vec<double, 3> normal, double shear, double kappa)
+      : law_(law),
+        normal_(normal),
+        shear_(positive_modulus("shear stiffness of a thin sheet", shear)),
+        kappa_(positive_modulus("kappa of a thin sheet", kappa)) {
+    if (!(std::abs(dot(normal, normal) - 1.0) < 1e-12))
+      throw Error(ExitCode::configuration, "the normal of a thin sheet has the square " +
+                                               std::to_string(dot(normal, normal)) + "; expected 1");
+  }
+
+  template <class T, int n, int dim>
+  T psi(const Mat<T, n>& F, const Vec<T, dim>& X) const {
+    const Vec<T, n> g = shear_strain(F);
+    const T J_1 = det(F) - T(1.0);
+    return T(law_.psi(relaxed(F, X), X) + 0.5 * shear_ * dot(g, g) + 0.5 * kappa_ * J_1 * J_1);
+  }
+  template <class T, int n, int dim>
+  Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X) const {
+    const Vec<T, n> N = normal<T, n>(), g = shear_strain(F);
+    const T J = det(F);
+    return law_.first_piola(relaxed(F, X), X) * in_plane<T, n>() +
+           T(shear_) * (outer(F * N, g) + outer(F * g, N)) +
+           T(kappa_ * (J - 1.0) * J) * transpose(inverse(F));
+  }
+  template <class T, int n, int dim>
+  Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X) const {
+    Tangent<T, n> A = membrane_tangent(F, X);
+    add_shear(F, A);
+    const T J = det(F), k_2 = kappa_ * (2.0 * J - 1.0) * J, k_1 = kappa_ * (J - 1.0) * J;
+    const Mat<T, n> G = transpose(inverse(F));
+    return A + tangent_from<T, n>([&](int i, int M, int k, int L) {
+             return T(k_2 * G(i, M) * G(k, L) - k_1 * G(i, L) * G(k, M));
+           });
+  }
+  [[nodiscard]] double young_modulus() const { return law_.young_modulus(); }
+
+ private:
+  template <class T, int n>
+  [[nodiscard]] Vec<T, n> normal() const {
+    Vec<T, n> N;
+    for (int i = 0; i < n; ++i) N[i] = T(normal_[i]);
+    return N;
+  }
+  template <class T, int n>
+  [[nodiscard]] Mat<T, n> in_plane() const {
+    return Mat<T, n>::identity() - outer(normal<T, n>(), normal<T, n>());
+  }
+  /// Q F^T F N, twice the Green-Lagrange shear strains between the sheet's plane and its normal.
+  template <class T, int n>
+  [[nodiscard]] Vec<T, n> shear_strain(const Mat<T, n>& F) const {
+    return in_plane<T, n>() * (transpose(F) * (F * normal<T, n>()));
+  }
+
+  /// F Q + d (x) N with the director of least energy, by Newton's method from the unit normal.
+  template <class T, int n, int dim>
+  [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X) const {
+    using std::sqrt;
+    const Vec<T, n> N = normal<T, n>();
+    const Mat<T, n> F_Q = F * in_plane<T, n>();
+    Vec<T, n> d = transpose(inverse(F)) * N;
+    d = T(1.0 / sqrt(dot(d, d))) * d;
+    constexpr int iterations = 8;  // quadratic: round-off after 4 at strains of 10 %
+    for (int k = 0; k < iterations; ++k) {
+      const Mat<T, n> F_d = F_Q + outer(d, N);
+      d = d - inverse(normal_stiffness(law_.tangent(F_d, X))) * (law_.first_piola(F_d, X) * N);
+    }
+    return F_Q + outer(d, N);
+  }
+  /// A_iMkL N_M N_L.
+  template <class T, int n2>
+  [[nodiscard]] auto normal_stiffness(const Mat<T, n2>& A) const {
+    constexpr int n = n2 == 4 ? 2 : 3;
+    Mat<T, n> K = Mat<T, n>::zero();
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k)
+        for (int M = 0; M < n; ++M)
+          for (int L = 0; L < n; ++L) K(i, k) += T(normal_[M] * normal_[L]) * A(i * n + M, k * n + L);
+    return K;
+  }
+
+  /// The law's tangent in the plane, less what the director yields: A_QQ - A_QN (A_NN)^-1 A_NQ.
+  template <class T, int n, int dim>
+  [[nodiscard]] Tangent<T, n> membrane_tangent(const Mat<T, n>& F, const Vec<T, dim>& X) const {
+    const Tangent<T, n> A = law_.tangent(relaxed(F, X), X);
+    const Mat<T, n> Q = in_plane<T, n>(), K_inverse = inverse(normal_stiffness(A));
+    std::array<Mat<T, n>, n> A_N;  // per k: A_iMkL N_L, M in the plane
+    for (int k = 0; k < n; ++k) {
+      A_N[k] = Mat<T, n>::zero();
+      for (int i = 0; i < n; ++i)
+        for (int M = 0; M < n; ++M)
+          for (int L = 0; L < n; ++L) A_N[k](i, M) += T(normal_[L]) * A(i * n + M, k * n + L);
+      A_N[k] = A_N[k] * Q;
+    }
+    return tangent_from<T, n>([&](int i, int M, int k, int L) {
+      T a = T(0.0);
+      for (int P = 0; P < n; ++P)
+        for (int R = 0; R < n; ++R) {
+          a += A(i * n + P, k * n + R) * Q(P, M) * Q(R, L);
+          a -= A_N[P](i, M) * K_inverse(P, R) * A_N[R](k, L);
+        }
+      return a;
+    });
+  }
+  /// Of shear / 2 |g|^2, g = Q F^T F N.
+  template <class T, int n>
+  void add_shear(const Mat<T, n>& F, Tangent<T, n>& A) const {
+    const Vec<T, n> N = normal<T, n>(), f = F * N, g = shear_strain(F);
+    const Mat<T, n> Q = in_plane<T, n>(), F_Q = F * Q;
+    for (int i = 0; i < n; ++i)
+      for (int M = 0; M < n; ++M)
+        for (int k = 0; k < n; ++k)
+          for (int L = 0; L < n; ++L) {
+            // dg_P/dF_kL = Q_PL f_k + F_kP N_L with P in the plane; g itself weighs the second derivatives
+            T a = T(Q(M, L) * f[i] * f[k]) + T(f[i] * F_Q(k, M) * N[L]) + T(N[M] * F_Q(i, L) * f[k]);
+            for (int P = 0; P < n; ++P) a += T(N[M] * N[L]) * F_Q(i, P) * F_Q(k, P);
+            if (i == k) a += T(g[M] * N[L]) + T(N[M] * g[L]);
+            A(i * n + M, k * n + L) += T(shear_ * a);
+          }
+  }
+
+  Law law_;
+  Vec<double, 3> normal_;
+  double shear_, kappa_;
+};
+
+}  // namespace ifsi
