@@ -514,5 +514,6 @@ extern template class SolidBody<Hex1, UncoupledNeoHookean, MeanDilatation>;
 extern template class SolidBody<Wedge1, UncoupledNeoHookean, MeanDilatation>;
 extern template class SolidBody<Hex1, NeoHookean, MeanDilatation>;
 extern template class SolidBody<Wedge1, NeoHookean, MeanDilatation>;
+extern template class SolidBody<Hex2, NeoHookean>;
 
 }  // namespace ifsi

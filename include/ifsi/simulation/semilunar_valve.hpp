@@ -1,0 +1,144 @@
+#pragma once
+/// \file
+/// The semilunar valve as its driver sees it: parameters, and the figures of a heartbeat.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "ifsi/io/run.hpp"
+#include "ifsi/mesh/leaflet.hpp"
+#include "ifsi/simulation/fsi_problem.hpp"
+#include "ifsi/simulation/time_loop.hpp"
+
+namespace ifsi {
+
+/// An aortic valve over one beat, cgs units: a straight vessel with a root of three sinuses, three leaflets.
+struct ValveOptions {
+  static constexpr double z_inlet = -4.0;
+
+  std::string model = "sector", curve;
+  AorticRoot root;
+  Leaflet leaflet;
+  double downstream = 11.8, angle = 60.0, h = 0.35, h_valve = 0.12, growth = 0.2, wall_ratio = 0.7;
+  double spacing = 0.9, protrusion_max = 0.08;
+  int layers = 1;
+  double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 2e6, nu = 0.4, backflow = 1.0;
+  double z_before = -1.0, z_behind = 5.0, picture_every = 0.02;
+  TimeOptions time;
+  FlowOptions flow;
+  FsiOptions fsi;
+
+  ValveOptions() {
+    time.dt = 1e-3, time.end = 1.0, time.adaptive = true, time.dt_max = 2e-3, time.checkpoint_every = 0.1;
+    flow.rho_inf = 0.0;
+  }
+
+  void declare(Parameters& params) {
+    params.add_choice("model", model, {"sector", "full"}, "half a leaflet between two planes, or all");
+    params.add("sector.angle", angle, "degrees", "between the planes of the sector", positive);
+    params.add("root.radius", root.radius, "cm", "of the straight vessel", positive);
+    params.add("root.height", root.height, "cm", "from the nadirs to the end of the sinuses", positive);
+    params.add("root.commissure", root.commissure, "cm", "height of the commissures", positive);
+    params.add("root.lobe", root.lobe, "-", "depth of a sinus over the radius", {0.0, 1.0});
+    params.add("root.downstream", downstream, "cm", "vessel behind the root", positive);
+    params.add("mesh.h", h, "cm", "fluid cells far from the valve", positive);
+    params.add("mesh.h_valve", h_valve, "cm", "fluid cells around the valve", positive);
+    params.add("mesh.growth", growth, "-", "of the cells per length away from the valve", positive);
+    params.add("mesh.wall_ratio", wall_ratio, "-", "cells at the wall over those at the axis", {0.1, 1.0});
+    params.add("solid.height", leaflet.height, "cm", "of the free edge over the nadir", positive);
+    params.add("solid.thickness", leaflet.thickness, "cm", "of the leaflets", positive);
+    params.add("solid.gap", leaflet.gap, "cm", "of the free edge to the plane of the commissures", positive);
+    params.add("solid.rounding", leaflet.rounding, "cm", "of the free edge in the middle", positive);
+    params.add("solid.belly", leaflet.belly, "cm", "sag of a leaflet", non_negative);
+    params.add("solid.protrusion", leaflet.protrusion, "cm", "of the attached edges into the wall",
+               non_negative);
+    params.add("solid.protrusion_max", protrusion_max, "cm", "no node may lie further outside of the vessel",
+               non_negative);
+    params.add("solid.spacing", spacing, "-", "of the leaflets' nodes over mesh.h_valve", {0.05, 2.0});
+    params.add("solid.layers", layers, "-", "cells through the thickness", {1, 4});
+    params.add("solid.rho", rho_s, "g/cm^3", "density of the leaflets", positive);
+    params.add("solid.E", E, "dyn/cm^2", "Young's modulus", positive);
+    params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
+    params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
+    params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);
+    params.add("inlet.curve", curve, "", "CSV file of the flow over time (default: data/curves)");
+    params.add("outlet.backflow", backflow, "-", "backflow stabilisation (eq. 11)", {0.0, 1.0});
+    params.add("metrics.z_before", z_before, "cm", "section of the pressure before the valve");
+    params.add("metrics.z_behind", z_behind, "cm", "section of the pressure behind the valve");
+    params.add("output.every", picture_every, "s", "time between pictures", positive);
+    time.declare(params), flow.declare(params), fsi.declare(params);
+  }
+
+  [[nodiscard]] bool is_sector() const { return model == "sector"; }
+  /// How many of what is computed make a whole valve.
+  [[nodiscard]] double copies() const { return is_sector() ? 6.0 : 1.0; }
+  [[nodiscard]] double z_outlet() const { return root.height + downstream; }
+
+  /// \throws Error (configuration) for a sector that is not cut along planes of symmetry.
+  void check() const {
+    if (is_sector() && std::abs(angle - 60.0) > 1e-9)
+      throw Error(ExitCode::configuration,
+                  "sector.angle = " + std::to_string(angle) +
+                      ": the cut at this angle is no plane of symmetry; expected 60, from the middle of a "
+                      "leaflet to its commissure, or model = full");
+  }
+};
+
+/// Area that the free edge of a leaflet encloses with the two planes of its commissures, seen along the axis.
+/// \param edge nodes in order of the angle; \param from, to angles of the planes (or cuts) at its ends;
+/// \param radius of the vessel, beyond which nothing counts.
+[[nodiscard]] inline double orifice_area(const std::vector<Vec<double, 3>>& edge, double from, double to,
+                                         double radius) {
+  std::vector<Vec<double, 2>> line;
+  for (const auto& x : edge) {
+    const double scale = std::min(1.0, radius / std::max(std::hypot(x[0], x[1]), 1e-300));
+    line.push_back({scale * x[0], scale * x[1]});
+  }
+  const auto on_plane = [&](const Vec<double, 2>& x, double angle) {
+    const double r = std::hypot(x[0], x[1]);
+    return Vec<double, 2>{r * std::cos(angle), r * std::sin(angle)};
+  };
+  line.insert(line.begin(), on_plane(line.front(), from));
+  line.push_back(on_plane(line.back(), to));
+  double twice = 0.0;
+  for (std::size_t k = 1; k < line.size(); ++k)
+    twice += line[k - 1][0] * line[k][1] - line[k - 1][1] * line[k][0];
+  return 0.5 * twice;
+}
+
+/// The curves of a beat, of the whole valve, and the figures that follow from them. Definitions: docs/cases.md.
+class ValveCurves {
+ public:
+  struct Sample {
+    double t, flow, area, speed, pressure_drop;  ///< s, cm^3/s, cm^2, cm/s, dyn/cm^2
+  };
+  void add(const Sample& sample) { samples_.push_back(sample); }
+  /// Reads back what an interrupted run has written until t_end. \param file history.csv
+  void read(const std::string& file, double t_end);
+
+  struct Figures {
+    double goa_rest = 0.0, goa_max = 0.0, t_open = 0.0, t_close = 0.0;
+    double jet_peak = 0.0, drop_mean = 0.0, drop_peak = 0.0, eoa = 0.0;
+    double forward = 0.0, closing = 0.0, leak = 0.0;
+    [[nodiscard]] double regurgitant_fraction() const {
+      return forward > 0.0 ? (closing + leak) / forward : 0.0;
+    }
+  };
+  /// \param rho density of the blood
+  [[nodiscard]] Figures figures(double rho) const;
+
+ private:
+  void find_opening(Figures& f) const;
+
+  std::vector<Sample> samples_;
+};
+
+/// Writes the figures to the summary.
+void report(Run& run, const ValveCurves::Figures& figures);
+
+/// Computes the valve of the options. \param data folder with geometry/vessel.geo and curves/
+void run_semilunar_valve(Run& run, const ValveOptions& options, const std::string& data);
+
+}  // namespace ifsi

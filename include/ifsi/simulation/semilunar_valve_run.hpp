@@ -1,0 +1,195 @@
+#pragma once
+/// \file
+/// Meshes, bodies and time loop of the semilunar valve.
+
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "ifsi/assembly/section.hpp"
+#include "ifsi/io/run_gmsh.hpp"
+#include "ifsi/mesh/gmsh.hpp"
+#include "ifsi/simulation/flow_curve.hpp"
+#include "ifsi/simulation/fsi_case.hpp"
+#include "ifsi/simulation/semilunar_valve.hpp"
+
+namespace ifsi {
+
+/// The vessel of the root: a straight one, or a wedge of it, from Gmsh, its points mapped.
+inline GlobalMesh<Tet1> vessel_mesh(const Run& run, const ValveOptions& o, const std::string& script) {
+  const std::string file = run_gmsh(run.comm(), script,
+                                    {{"radius", o.root.radius},
+                                     {"z_inlet", o.z_inlet},
+                                     {"z_outlet", o.z_outlet()},
+                                     {"angle", o.is_sector() ? o.angle : 360.0},
+                                     {"h", o.h},
+                                     {"h_band", o.h_valve},
+                                     {"z_first", -0.5},
+                                     {"z_last", o.root.height + 0.1},
+                                     {"growth", o.growth},
+                                     {"wall_ratio", o.wall_ratio}},
+                                    run.path(""));
+  auto mesh = read_gmsh<Tet1>(file);
+  for (auto& x : mesh.points) x = o.root.map(x);
+  check(mesh);
+  return mesh;
+}
+
+/// Area of the inlet that the plug flow sees: the rim, where no-slip wins, counts in part.
+template <class Element>
+double plug_area(const Mesh<Element>& mesh) {
+  constexpr int B = Element::dim + 1;
+  std::vector<double> u(static_cast<std::size_t>(mesh.n_nodes()) * B, 0.0);
+  for (int node : mesh.nodes_on("inlet")) u[static_cast<std::size_t>(node) * B + 2] = 1.0;
+  for (int node : mesh.nodes_on("wall")) u[static_cast<std::size_t>(node) * B + 2] = 0.0;
+  return -boundary_flux<Cartesian>(mesh, mesh.boundary("inlet"), u);
+}
+
+inline FlowBoundary<3> valve_boundary(const ValveOptions& o, const FlowCurve& flow, double area) {
+  FlowBoundary<3> boundary;
+  boundary.velocity("inlet", [=](const auto&, double t) {
+    return Vec<double, 3>{0.0, 0.0, flow(t) / area};
+  });
+  boundary.traction_free("outlet"), boundary.backflow("outlet", o.backflow);
+  if (o.is_sector()) boundary.slip("cut_0"), boundary.slip("cut_1");
+  boundary.no_slip("wall");
+  return boundary;
+}
+
+/// A valve in motion: what is recorded in every step.
+template <class Problem>
+class ValveHistory {
+ public:
+  ValveHistory(Run& run, const Problem& problem, const ValveOptions& o,
+               std::vector<std::vector<int>> free_edges)
+      : run_(run),
+        problem_(problem),
+        o_(o),
+        edges_(std::move(free_edges)),
+        before_(problem.mesh(), 2, o.z_before),
+        behind_(problem.mesh(), 2, o.z_behind),
+        annulus_(problem.mesh(), 2, -0.05),
+        balances_(problem),
+        pictures_(run, o.picture_every) {
+    std::vector<Column> columns = {{"t", "s"},
+                                   {"dt", "s"},
+                                   {"flow", "cm^3/s"},
+                                   {"goa", "cm^2"},
+                                   {"v_max", "cm/s"},
+                                   {"pressure_drop", "dyn/cm^2"},
+                                   {"det_f_min", "-"},
+                                   {"elastic_energy", "erg"},
+                                   {"lost_nodes", "-"}};
+    for (const Column& c : Balances<Problem>::columns()) columns.push_back(c);
+    if (run.restarted()) {
+      pictures_.resume(problem.time());
+      curves_.read(run.path("history.csv"), problem.time());
+    } else {
+      pictures_.write(problem, true);
+    }
+    csv_ = run.csv("history.csv", columns, problem.time());
+  }
+
+  void observe(double dt) {
+    const auto u = problem_.solution();
+    const double copies = o_.copies();
+    const ValveCurves::Sample s{problem_.time(), copies * annulus_.integral(u, Problem::B, 2), orifice(),
+                                largest_speed(problem_),
+                                before_.mean(u, Problem::B, 3) - behind_.mean(u, Problem::B, 3)};
+    curves_.add(s);
+    const auto totals = extremes_.observe(problem_);
+    std::vector<double> row = {s.t,
+                               dt,
+                               s.flow,
+                               s.area,
+                               s.speed,
+                               s.pressure_drop,
+                               totals.deformation.min_det_F,
+                               copies * totals.elastic_energy,
+                               static_cast<double>(problem_.interpolation().lost().size())};
+    for (double x : balances_.observe(dt)) row.push_back(x);
+    csv_.row(row);
+    pictures_.write(problem_, s.t >= o_.time.end * (1.0 - 1e-10));
+  }
+  void report_all() const {
+    report(run_, curves_.figures(o_.rho_f));
+    extremes_.report(run_);
+    run_.metric("energy_lost", balances_.lost_part());
+  }
+
+ private:
+  [[nodiscard]] double orifice() const {
+    const auto x = problem_.solids().positions();
+    double area = 0.0;
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      std::vector<Vec<double, 3>> edge;
+      for (int a : edges_[k]) edge.push_back(x[problem_.solids().first_node(static_cast<int>(k)) + a]);
+      const double middle = AorticRoot::third * static_cast<double>(k), half = 0.5 * AorticRoot::third;
+      area += orifice_area(edge, o_.is_sector() ? 0.0 : middle - half, middle + half, o_.root.radius);
+    }
+    return o_.copies() * area;
+  }
+
+  Run& run_;
+  const Problem& problem_;
+  const ValveOptions& o_;
+  std::vector<std::vector<int>> edges_;
+  Section<Tet1> before_, behind_, annulus_;
+  ValveCurves curves_;
+  FsiExtremes extremes_;
+  Balances<Problem> balances_;
+  FsiPictures pictures_;
+  CsvFile csv_;
+};
+
+/// Leaflet nodes may lie in the wall, as deep as declared. \throws Error (configuration)
+template <class Problem>
+void check_protrusion(Run& run, const Problem& problem, double allowed) {
+  double deepest = 0.0;
+  int outside = 0;
+  for (const auto& lost : problem.interpolation().lost_points()) {
+    deepest = std::max(deepest, lost.distance);
+    outside += lost.distance > allowed ? 1 : 0;
+  }
+  if (outside > 0)
+    throw Error(ExitCode::configuration,
+                std::to_string(outside) + " nodes of the leaflets lie outside of the vessel by up to " +
+                    std::to_string(deepest) + " cm; expected at most solid.protrusion_max = " +
+                    std::to_string(allowed));
+  run.metric("protruding_nodes", static_cast<double>(problem.interpolation().lost().size()));
+  run.metric("protrusion_max", deepest, "cm");
+}
+
+template <class SolidElement>
+void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& data) {
+  using Body = SolidBody<SolidElement, NeoHookean>;
+  using Problem = FsiProblem<Tet1, Body>;
+  const FlowCurve flow(o.curve.empty() ? data + "/curves/aortic_flow.csv" : o.curve);
+  if (flow.begin() > 0.0 || flow.end() < o.time.end)
+    throw Error(ExitCode::configuration, "inlet.curve covers " + std::to_string(flow.begin()) + " to " +
+                                             std::to_string(flow.end()) + " s; expected 0 to time.end = " +
+                                             std::to_string(o.time.end));
+  const auto mesh = distribute(vessel_mesh(run, o, data + "/geometry/vessel.geo"), run.comm());
+  const SolidParameters<3> solid{
+      .rho_s = o.rho_s, .rho_f = o.rho_f, .mu_f = o.mu, .mu_s = 0.0, .gravity = {}};
+  std::vector<Body> leaflets;
+  std::vector<std::vector<int>> free_edges;
+  for (int k = 0; k < (o.is_sector() ? 1 : 3); ++k) {
+    auto leaflet = leaflet_mesh<SolidElement>(o.root, o.leaflet, o.spacing * o.h_valve, o.layers,
+                                              o.is_sector(), k * AorticRoot::third);
+    leaflets.emplace_back("leaflet " + std::to_string(k + 1), std::move(leaflet.mesh),
+                          NeoHookean(Lame::from_young(o.E, o.nu)), solid);
+    free_edges.push_back(std::move(leaflet.free_edge));
+  }
+  constexpr bool may_protrude = true;
+  Problem problem(mesh, valve_boundary(o, flow, o.copies() * plug_area(mesh)), o.rho_f, Newtonian{o.mu},
+                  std::move(leaflets), o.flow, o.fsi, may_protrude);
+  check_protrusion(run, problem, o.protrusion_max);
+  attach(run, problem);
+  ValveHistory<Problem> history(run, problem, o, std::move(free_edges));
+  march(run, problem, o.time, [&](double dt) { history.observe(dt); });
+  history.report_all();
+}
+
+}  // namespace ifsi

@@ -1,0 +1,73 @@
+#include "ifsi/simulation/semilunar_valve.hpp"
+
+#include "ifsi/simulation/profiles.hpp"
+
+namespace ifsi {
+
+namespace {
+constexpr double mmHg = 1333.22;  // dyn/cm^2
+}
+
+void ValveCurves::read(const std::string& file, double t_end) {
+  const auto column = [&](const std::string& name) {
+    const auto curve = read_profile(file, name);
+    if (!curve) throw Error(ExitCode::file, file + ": no column \"" + name + "\"");
+    return *curve;
+  };
+  const auto flow = column("flow [cm^3/s]"), area = column("goa [cm^2]"), speed = column("v_max [cm/s]"),
+             drop = column("pressure_drop [dyn/cm^2]");
+  for (std::size_t k = 0; k < flow.size() && flow[k].first <= t_end * (1.0 + 1e-12); ++k)
+    add({flow[k].first, flow[k].second, area[k].second, speed[k].second, drop[k].second});
+}
+
+/// First and last crossing of the middle between the area at rest and the largest one.
+void ValveCurves::find_opening(Figures& f) const {
+  const double half = 0.5 * (f.goa_rest + f.goa_max);
+  for (std::size_t k = 1; k < samples_.size(); ++k) {
+    const Sample &a = samples_[k - 1], &b = samples_[k];
+    if ((a.area < half) == (b.area < half)) continue;
+    const double t = a.t + (b.t - a.t) * (half - a.area) / (b.area - a.area);
+    if (f.t_open == 0.0) f.t_open = t;
+    if (b.area < half) f.t_close = t;
+  }
+}
+
+ValveCurves::Figures ValveCurves::figures(double rho) const {
+  Figures f;
+  if (samples_.empty()) return f;
+  f.goa_rest = samples_.front().area;
+  for (const Sample& s : samples_) {
+    f.goa_max = std::max(f.goa_max, s.area), f.jet_peak = std::max(f.jet_peak, s.speed);
+    f.drop_peak = std::max(f.drop_peak, s.pressure_drop);
+  }
+  find_opening(f);
+  double time = 0.0, drop = 0.0, square = 0.0;  // while blood goes forward against a positive difference
+  for (std::size_t k = 1; k < samples_.size(); ++k) {
+    const Sample& s = samples_[k];
+    const double dt = s.t - samples_[k - 1].t, volume = 0.5 * dt * (s.flow + samples_[k - 1].flow);
+    if (volume > 0.0)
+      f.forward += volume;
+    else
+      (f.t_close == 0.0 || s.t <= f.t_close ? f.closing : f.leak) -= volume;
+    if (s.flow <= 0.0 || s.pressure_drop <= 0.0) continue;
+    time += dt, drop += dt * s.pressure_drop, square += dt * s.flow * s.flow;
+  }
+  if (time == 0.0) return f;
+  f.drop_mean = drop / time;
+  f.eoa = std::sqrt(square / time) / std::sqrt(2.0 * f.drop_mean / rho);
+  return f;
+}
+
+void report(Run& run, const ValveCurves::Figures& f) {
+  run.metric("goa_rest", f.goa_rest, "cm^2"), run.metric("goa_max", f.goa_max, "cm^2");
+  run.metric("t_open", f.t_open, "s"), run.metric("t_close", f.t_close, "s");
+  run.metric("jet_peak", f.jet_peak, "cm/s");
+  run.metric("pressure_drop_mean", f.drop_mean / mmHg, "mmHg");
+  run.metric("pressure_drop_peak", f.drop_peak / mmHg, "mmHg");
+  run.metric("eoa", f.eoa, "cm^2");
+  run.metric("forward_volume", f.forward, "cm^3"), run.metric("closing_volume", f.closing, "cm^3");
+  run.metric("leak_volume", f.leak, "cm^3");
+  run.metric("regurgitant_fraction", f.regurgitant_fraction());
+}
+
+}  // namespace ifsi
