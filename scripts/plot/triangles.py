@@ -73,6 +73,31 @@ def section(grid, axis, position):
             {name: interpolate(values) for name, values in grid.point_data.items()})
 
 
+# Faces of a hexahedron as cycles of its corners; HEX27 finds what lies between them.
+HEX_FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+
+
+def face_quads(kind):
+    """Point numbers within a hexahedron (VTK type 12 or 29) of the quadrilaterals that make up its faces."""
+    if kind == 12:
+        return HEX_FACES
+    node = {position: number for number, position in enumerate(HEX27)}
+
+    def middle(*corners):
+        return node[tuple(int(x) for x in numpy.mean([HEX27[c] for c in corners], axis=0))]
+
+    return [(face[k], middle(face[k], face[(k + 1) % 4]), middle(*face), middle(face[k - 1], face[k]))
+            for face in HEX_FACES for k in range(4)]
+
+
+def surface(grid):
+    """Quadrilaterals (m, 4) on the surface of a grid of hexahedra."""
+    quads = numpy.concatenate([connectivity[:, quad] for kind, connectivity in grid.cells.items() if kind in (12, 29)
+                               for quad in face_quads(kind)])
+    _, first, counts = numpy.unique(numpy.sort(quads, axis=1), axis=0, return_index=True, return_counts=True)
+    return quads[first[counts == 1]]
+
+
 def outline(triangles):
     """Edges (m, 2) that belong to one triangle only."""
     edges = numpy.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)

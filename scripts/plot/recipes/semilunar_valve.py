@@ -1,0 +1,99 @@
+"""Six moments of a beat: the jet in the plane of symmetry, and the leaflets seen from the aorta with their stress."""
+
+import matplotlib
+import numpy
+from matplotlib import pyplot
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+import figures
+import triangles
+import vtu
+
+SIXTH = numpy.pi / 3
+WINDOW = (-1.9, 1.9, -1.0, 5.5)
+
+
+def turned(points, angle):
+    c, s = numpy.cos(angle), numpy.sin(angle)
+    return points @ numpy.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+
+
+def half_planes(run, file):
+    """The plane y = 0 of the whole valve: (radial coordinate and z, triangles, data) of its parts. A sector holds
+    one half of it on its first cut, and the other one, behind the axis, on its second."""
+    grid = vtu.read(file)
+    if run.parameter("model") != "sector":
+        points, corners, data = triangles.section(grid, 1, 1e-6)
+        return [(points[:, [0, 2]], corners, data)]
+    parts = []
+    for angle, side in ((0.0, 1), (SIXTH, -1)):
+        grid.points = turned(grid.points, -angle)
+        points, corners, data = triangles.section(grid, 1, 1e-6 * side)
+        grid.points = turned(grid.points, angle)
+        parts.append((points[:, [0, 2]] * [side, 1], corners, data))
+    return parts
+
+
+def whole_leaflets(run, grid, value):
+    """Quadrilaterals (m, 4, 3) of all three leaflets and the mean of a nodal value on each."""
+    quads = triangles.surface(grid)
+    points, value = grid.points[quads], value[quads].mean(axis=1)
+    if run.parameter("model") == "sector":
+        both = numpy.concatenate([points, points * [1, -1, 1]])
+        points = numpy.concatenate([turned(both.reshape(-1, 3), 2 * k * SIXTH).reshape(both.shape) for k in range(3)])
+        value = numpy.tile(value, 6)
+    return points, value
+
+
+def moments(run, n=6):
+    """Frames in and after systole, evenly."""
+    times = [t for t, _ in run.fields("fluid")]
+    history = run.table("history")
+    last = min(times[-1], 0.36) if times[-1] < 0.99 else 0.36
+    wanted = numpy.linspace(times[0], last, n + 1)[1:] if history is not None else times[-n:]
+    return sorted({figures.fluid_at(run, t) for t in wanted})
+
+
+def jet(run, axis, frame, top):
+    for points, corners, data in half_planes(run, run.fields("fluid")[frame][1]):
+        image = axis.tripcolor(points[:, 0], points[:, 1], corners, numpy.linalg.norm(data["velocity"], axis=1),
+                               shading="gouraud", cmap="viridis", vmin=0, vmax=top, rasterized=True)
+    for points, corners, _ in half_planes(run, run.fields("solid")[frame][1]):
+        if len(corners):
+            figures.add_solid(axis, points, corners)
+    axis.set(xlim=WINDOW[:2], ylim=WINDOW[2:], aspect="equal", title=f"t = {run.fields('fluid')[frame][0]:.3f} s")
+    axis.grid(False)
+    return image
+
+
+def leaflets(run, axis, frame, top):
+    grid = vtu.read(run.fields("solid")[frame][1])
+    points, value = whole_leaflets(run, grid, grid.point_data["principal_stress_1"])
+    colours = matplotlib.colormaps["inferno"](numpy.clip(value / top, 0, 1)) \
+        if hasattr(matplotlib, "colormaps") else pyplot.get_cmap("inferno")(numpy.clip(value / top, 0, 1))
+    axis.add_collection3d(Poly3DCollection(points, facecolors=colours, edgecolors="0.3", linewidths=0.1))
+    axis.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), zlim=(0, 1.8))
+    axis.set_box_aspect((1, 1, 0.75))
+    axis.view_init(elev=55, azim=-60)
+    axis.set_axis_off()
+
+
+def draw(run):
+    frames = moments(run)
+    if not frames:
+        return
+    speed = max(numpy.linalg.norm(vtu.read(run.fields("fluid")[f][1]).point_data["velocity"], axis=1).max()
+                for f in frames)
+    stress = max(numpy.percentile(vtu.read(run.fields("solid")[f][1]).point_data["principal_stress_1"], 99)
+                 for f in frames)
+    figure = pyplot.figure(figsize=(2.1 * len(frames), 5.6))
+    for k, frame in enumerate(frames):
+        axis = figure.add_subplot(2, len(frames), k + 1)
+        image = jet(run, axis, frame, speed)
+        leaflets(run, figure.add_subplot(2, len(frames), len(frames) + k + 1, projection="3d"), frame, stress)
+    figure.colorbar(image, ax=figure.axes[::2], label="speed [cm/s]", fraction=0.012, pad=0.01)
+    scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, stress), "inferno")
+    figure.colorbar(scale, ax=figure.axes[1:2 * len(frames):2], label="principal stress [dyn/cm^2]", fraction=0.012,
+                    pad=0.01)
+    run.save(figure, "beat")
+    pyplot.close(figure)
