@@ -96,8 +96,8 @@ struct Step {
         rate[node * B + i] = 0.01 * fluid.c_inertia * u[node * B + i];
       }
     system.assemble(fields(), fluid, 0.0, R, &K);
-    constrain_matrix<B>(system.mask(), K);
-    constrain_residual<B>(system.mask(), mesh.n_owned_nodes(), R);
+    system.constraints().eliminate(K);
+    system.constraints().project(mesh.n_owned_nodes(), R);
   }
   [[nodiscard]] FlowFields fields() const { return {.u = u, .u_dot = rate, .f = {}, .s = {}, .k_p = {}}; }
 

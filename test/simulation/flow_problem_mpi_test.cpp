@@ -126,6 +126,124 @@ TEST(FlowProblem, SlipIsASymmetryLine) {
   expect_poiseuille(flow);
 }
 
+template <class Element>
+GlobalMesh<Element> turned(GlobalMesh<Element> mesh, const Mat<double, Element::dim>& Q) {
+  for (auto& x : mesh.points) x = Q * x;
+  return mesh;
+}
+
+// The same half channel, its symmetry line inclined by 60 degrees.
+TEST(FlowProblem, SlipIsASymmetryLineHoweverInclined) {
+  const Mat<double, 2> Q{{0.5, -std::sqrt(0.75), std::sqrt(0.75), 0.5}}, Qt = transpose(Q);
+  const auto mesh = distribute(turned(box<Quad2>({0.0, 0.0}, {2.0, 0.5}, {4, 2}), Q), Communicator());
+  using V = Vec<double, 2>;
+  FlowBoundary<2> boundary;
+  boundary.velocity("left", [=](const V& x, double) {
+    const double y = (Qt * x)[1];
+    return Q * V{y * (1.0 - y), 0.0};
+  });
+  boundary.traction("right", [=](const V& x, double) { return Q * V{0.0, 0.1 * (1.0 - 2.0 * (Qt * x)[1])}; });
+  boundary.no_slip("bottom"), boundary.slip("top");
+  for (const char* method : {"direct", "gmres"}) {
+    FlowOptions options = tight();
+    options.linear.method = method;
+    FlowProblem<Quad2> flow(mesh, boundary, 1.0, Newtonian{0.1}, options);
+    ASSERT_TRUE(flow.solve_steady().converged);
+    const auto u = flow.solution();
+    const auto x = mesh.node_coordinates();
+    for (std::size_t a = 0; a < x.size(); ++a) {
+      const V at = Qt * x[a], v = Qt * V{u[a * 3], u[a * 3 + 1]};
+      EXPECT_NEAR(v[0], at[1] * (1.0 - at[1]), 1e-8);
+      EXPECT_NEAR(v[1], 0.0, at[1] > 0.5 - 1e-9 ? 1e-16 : 1e-8);  // nothing passes the plane
+      EXPECT_NEAR(u[a * 3 + 2], 0.2 * (2.0 - at[0]), 1e-8);
+    }
+  }
+}
+
+// Symmetry planes that meet at 60 degrees: the potential r^3 cos(3 theta) has a quadratic velocity, which
+// order-2 cells hold exactly.
+TEST(FlowProblem, SlipPlanesMayMeetAtAnyAngle) {
+  constexpr int n = 4;
+  GlobalMesh<Tri1> wedge;
+  const auto index = [](int i, int j) { return j * (n + 1) - j * (j - 1) / 2 + i; };
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i + j <= n; ++i) wedge.points.push_back({(i + 0.5 * j) / n, std::sqrt(0.75) * j / n});
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i + j < n; ++i) {
+      wedge.cells.push_back({index(i, j), index(i + 1, j), index(i, j + 1)});
+      if (i + j + 1 < n) wedge.cells.push_back({index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)});
+    }
+  wedge.boundary_names = {"below", "above", "open"};
+  mark_boundaries(wedge, [](const auto& x) {
+    if (x[1] < 1e-9) return 0;
+    return x[1] > std::sqrt(3.0) * x[0] - 1e-9 ? 1 : 2;
+  });
+  const auto mesh = distribute(elevate<Tri2>(wedge), Communicator());
+  const auto exact = [](const auto& x, double) {
+    return Vec<double, 2>{x[0] * x[0] - x[1] * x[1], -2.0 * x[0] * x[1]};
+  };
+  FlowBoundary<2> boundary;
+  boundary.slip("below"), boundary.slip("above"), boundary.velocity("open", exact);
+  FlowProblem<Tri2> flow(mesh, boundary, 1e-9, Newtonian{1.0}, tight());
+  ASSERT_TRUE(flow.solve_steady().converged);
+  const auto u = flow.solution();
+  const auto x = mesh.node_coordinates();
+  for (std::size_t a = 0; a < x.size(); ++a)
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(u[a * 3 + i], exact(x[a], 0.0)[i], 1e-8);
+}
+
+// In space: slip on five sides that meet in edges, and with a wall; the box turned about all axes has the
+// same flow, turned.
+TEST(FlowProblem, ATurnedBoxHasTheTurnedFlow) {
+  using V = Vec<double, 3>;
+  const auto global = box<Tet1>({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {4, 3, 3});
+  const auto flow_in = [&](const Mat<double, 3>& Q) {
+    const auto mesh = distribute(turned(global, Q), Communicator());
+    FlowBoundary<3> boundary;
+    boundary.velocity("left", [=](const V& x, double t) {
+      const V at = transpose(Q) * x;
+      return Q * V{t * (1.0 + at[1] + at[2]), 0.0, 0.0};
+    });
+    boundary.traction_free("right"), boundary.no_slip("top");
+    for (const char* side : {"front", "back", "bottom"}) boundary.slip(side);
+    FlowProblem<Tet1> flow(mesh, boundary, 1.0, Newtonian{0.1}, tight());
+    EXPECT_TRUE(flow.step(0.1).converged && flow.step(0.1).converged);
+    const std::vector<double> u = flow.solution();
+    std::vector<double> straight(global.points.size() * 4, 0.0);  // the same order however the box is turned
+    for (int i = 0; i < mesh.n_points(); ++i) {
+      const double* at = &u[mesh.point_node[i] * 4];
+      if (mesh.point_node[i] >= mesh.n_owned_nodes()) continue;
+      const V v = transpose(Q) * V{at[0], at[1], at[2]};
+      for (int k = 0; k < 4; ++k) straight[mesh.input_point[i] * 4 + k] = k < 3 ? v[k] : at[3];
+    }
+    mesh.comm.sum_in_place(straight.data(), static_cast<int>(straight.size()));
+    return straight;
+  };
+  const Mat<double, 3> Q{{0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6}};
+  const auto straight = flow_in(Mat<double, 3>::identity()), inclined = flow_in(Q);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < straight.size(); ++k) {
+    EXPECT_NEAR(inclined[k], straight[k], 1e-8);
+    if (k % 4 == 1) largest = std::max(largest, std::abs(straight[k]));
+  }
+  EXPECT_GT(largest, 1e-3);  // it is no parallel flow
+}
+
+TEST(FlowProblem, SlipNeedsAPlane) {
+  auto global = box<Quad1>({0.0, 0.0}, {1.0, 1.0}, {6, 6});
+  for (auto& x : global.points) x[1] += 0.1 * x[0] * x[0];
+  const auto mesh = distribute(global, Communicator());
+  FlowBoundary<2> boundary;
+  boundary.no_slip("left"), boundary.no_slip("right"), boundary.no_slip("bottom"), boundary.slip("top");
+  try {
+    FlowProblem<Quad1>(mesh, boundary, 1.0, Newtonian{}, {});
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::configuration);
+    EXPECT_NE(std::string(e.what()).find("\"top\" is no plane"), std::string::npos) << e.what();
+  }
+}
+
 // A body force drives Poiseuille flow through a periodic channel, and the walls hold it all (eq. 12).
 TEST(FlowProblem, ConsistentForceBalancesTheBodyForce) {
   const auto mesh = distribute(box<Quad2>({0.0, 0.0}, {2.0, 1.0}, {6, 4}, {{true, false}}), Communicator());

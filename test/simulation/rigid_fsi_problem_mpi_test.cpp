@@ -98,6 +98,42 @@ TEST(RigidFsiProblem, DoesNotDependOnTheRanks) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(all.body(0).position()[i], one.body(0).position()[i], 1e-10);
 }
 
+// Half a disc that rests on a symmetry plane: at the points on it only motion along it is constrained,
+// however it is inclined.
+std::vector<double> speeds_past_half_a_disc(const Mat<double, 2>& Q) {
+  const auto turned = [&](GlobalMesh<Quad1> global) {
+    for (auto& x : global.points) x = Q * x;
+    return global;
+  };
+  const auto mesh = distribute(turned(box<Quad1>({-1.0, 0.0}, {1.0, 1.0}, {30, 15})), Communicator());
+  FlowBoundary<2> boundary;
+  boundary.velocity("left", [=](const auto& x, double) {
+    const double y = (transpose(Q) * x)[1];
+    return Q * Vec<double, 2>{1.0 - y * y, 0.0};
+  });
+  boundary.traction_free("right"), boundary.no_slip("top"), boundary.slip("bottom");
+  const auto body = turned(ball<Quad1>({radius, 0.6 * radius, 4, 2}, {false, true}));
+  Problem::Immersed disc{{rigid_shape<Cartesian>(body), 2.0, {}, {false, false, false}},
+                         boundary_points(body, 0),
+                         [](const auto& x) { return std::sqrt(dot(x, x)) - radius; }};
+  Problem problem(mesh, boundary, 1.0, Newtonian{1.0}, {disc}, flow_options(), {});
+  EXPECT_TRUE(problem.solve_steady().converged);
+  EXPECT_LT(problem.constraint_violation(), 1e-8);
+  const std::vector<double> u = problem.solution();
+  std::vector<double> speeds(mesh.comm.sum(long{mesh.n_owned_nodes()}), 0.0);  // in the order of the input
+  for (int i = 0; i < mesh.n_points(); ++i)
+    if (const int a = mesh.point_node[i]; a < mesh.n_owned_nodes())
+      speeds[mesh.input_point[i]] = std::hypot(u[a * 3], u[a * 3 + 1]);
+  mesh.comm.sum_in_place(speeds.data(), static_cast<int>(speeds.size()));
+  return speeds;
+}
+
+TEST(RigidFsiProblem, PointsOnAnInclinedSymmetryPlane) {
+  const auto straight = speeds_past_half_a_disc(Mat<double, 2>::identity()),
+             inclined = speeds_past_half_a_disc({{0.5, -std::sqrt(0.75), std::sqrt(0.75), 0.5}});
+  for (std::size_t k = 0; k < straight.size(); ++k) EXPECT_NEAR(inclined[k], straight[k], 1e-6);
+}
+
 TEST(RigidFsiProblem, ABodyOutsideIsRefused) {
   const auto mesh = square(Communicator());
   EXPECT_THROW(

@@ -3,10 +3,10 @@
 /// The equations that tie rigid bodies to the fluid: matrix of the multipliers and of the rigid motions.
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "ifsi/core/projector.hpp"
 #include "ifsi/coupling/interpolation.hpp"
 #include "ifsi/linalg/block_csr.hpp"
 #include "ifsi/linalg/bordered.hpp"
@@ -83,24 +83,21 @@ class RigidConstraint {
   [[nodiscard]] BlockCsr<B>& matrix() { return matrix_; }
   [[nodiscard]] const BlockCsr<B>& matrix() const { return matrix_; }
 
-  /// Which components of the velocity at each point the fluid is free to take (bit i: component i): at a
-  /// symmetry plane it is not. \param mask prescribed components per local fluid node. Collective.
-  [[nodiscard]] std::vector<std::uint8_t> free_components(const std::vector<std::uint8_t>& mask) const {
-    std::vector<double> freedom(static_cast<std::size_t>(n_points()) * dim, 0.0);
+  /// Projector onto the velocities that the fluid is free to take at each point: at a symmetry plane those
+  /// along it. \param projector of the velocity of a local fluid node. Collective.
+  template <class ProjectorOf>
+  [[nodiscard]] std::vector<Mat<double, dim>> free_directions(const ProjectorOf& projector) const {
+    std::vector<Mat<double, dim>> freedom(n_points(), Mat<double, dim>::zero());
     const Mesh<Element>& mesh = C_.mesh();
     for (int p = 0; p < n_points(); ++p)
       for (int b = 0; C_.row(p).found() && b < Element::n_nodes; ++b) {
         const long local = C_.row(p).node[b] - mesh.nodes.first_global();
         if (local < 0 || local >= mesh.n_owned_nodes()) continue;
-        for (int i = 0; i < dim; ++i)
-          if (!(mask[local] >> i & 1)) freedom[p * dim + i] += C_.row(p).N[b];
+        freedom[p] += C_.row(p).N[b] * projector(static_cast<int>(local));
       }
-    mesh.comm.sum_in_place(freedom.data(), static_cast<int>(freedom.size()));
-    std::vector<std::uint8_t> free(n_points(), 0);
-    for (int p = 0; p < n_points(); ++p)
-      for (int i = 0; i < dim; ++i)
-        if (freedom[p * dim + i] > 1e-3) free[p] |= 1 << i;
-    return free;
+    if (n_points() > 0) mesh.comm.sum_in_place(freedom[0].data, n_points() * dim * dim);
+    for (Mat<double, dim>& F : freedom) F = projector_onto_range(F, 1e-3);
+    return freedom;
   }
 
  private:

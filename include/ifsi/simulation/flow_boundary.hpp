@@ -44,7 +44,7 @@ class FlowBoundary {
   void no_slip(std::string boundary) {
     velocity(std::move(boundary), [](const Point&, double) { return Point::zero(); });
   }
-  /// Symmetry or slip on a plane normal to a coordinate axis: no flow through it, no shear on it.
+  /// Symmetry or slip on a plane, however inclined: no flow through it, no shear on it (eq. 28).
   void slip(std::string boundary) { slips_.push_back(std::move(boundary)); }
   /// Prescribed traction h = sigma n.
   void traction(std::string boundary, Profile value) {

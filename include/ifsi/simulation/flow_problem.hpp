@@ -150,7 +150,7 @@ class FlowProblem {
   void assemble_residual() { assemble(nullptr); }
   void assemble_tangent() {
     assemble(&K_);
-    constrain_matrix<B>(system_.mask(), K_);
+    system_.constraints().eliminate(K_);
   }
   BlockNorms relative_residual() {
     const BlockNorms r = block_norms<B>(mesh().nodes, R_), size = absolute_product_norms<B>(K_, state_.u);
@@ -159,7 +159,10 @@ class FlowProblem {
   }
   SolverReport solve(BlockNorms target) {
     for (std::size_t i = 0; i < R_.size(); ++i) update_[i] = 0.0, R_[i] = -R_[i];
-    return solver_.solve(K_, R_, update_, target);
+    const SolverReport report = solver_.solve(K_, R_, update_, target);
+    // Prescribed directions that are no unknowns of their own come back with the error of the solver.
+    system_.constraints().project(mesh().n_nodes(), update_);
+    return report;
   }
   void apply_update(double factor) {
     for (std::size_t i = 0; i < update_.size(); ++i) state_.u[i] += factor * update_[i];
@@ -177,8 +180,9 @@ class FlowProblem {
     if (fluid_.c_inertia != c_inertia_of_setup_) solver_.invalidate();
     c_inertia_of_setup_ = fluid_.c_inertia;
     state_.begin_step(scheme, dt > 0.0 ? dt : 1.0, smooth);
-    system_.for_each_prescribed(state_.time() + (steady ? 0.0 : dt),
-                                [&](int node, int i, double value) { state_.set_velocity(node, i, value); });
+    system_.for_each_prescribed(state_.time() + (steady ? 0.0 : dt), [&](int node, const Point& value) {
+      state_.prescribe(node, system_.constraints().velocity(node), value);
+    });
     state_.update_rate();
   }
   void close_step() {
@@ -216,7 +220,7 @@ class FlowProblem {
   void assemble(BlockCsr<B>* K) {
     system_.assemble(fields(), fluid_, state_.time_alpha(), R_, K);
     reaction_ = R_;
-    constrain_residual<B>(system_.mask(), mesh().n_owned_nodes(), R_);
+    system_.constraints().project(mesh().n_owned_nodes(), R_);
   }
 
   void remove_mean_pressure() {
@@ -233,7 +237,7 @@ class FlowProblem {
   [[nodiscard]] double initial_pseudo_dt() const {
     double v_max = 1e-12;
     system_.for_each_prescribed(state_.time(),
-                                [&](int, int, double v) { v_max = std::max(v_max, std::abs(v)); });
+                                [&](int, const Point& v) { v_max = std::max(v_max, std::sqrt(dot(v, v))); });
     return mesh().h_max() / mesh().comm.max(v_max);
   }
 

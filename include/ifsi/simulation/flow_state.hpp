@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ifsi/core/tensor.hpp"
 #include "ifsi/time/generalized_alpha.hpp"
 
 namespace ifsi {
@@ -56,10 +57,16 @@ class FlowState {
     update_rate();
   }
 
-  /// Prescribes v at n + 1.
-  void set_velocity(int node, int component, double value) {
-    const int i = node * B + component;
-    u[i] = old_[i] + scheme_.alpha_f * (value - old_[i]);
+  /// Prescribes v at n + 1 outside of the range of the projector P.
+  void prescribe(int node, const Mat<double, dim>& P, const Vec<double, dim>& value) {
+    Vec<double, dim> now, prescribed;
+    for (int i = 0; i < dim; ++i) {
+      const int k = node * B + i;
+      now[i] = u[k];
+      prescribed[i] = old_[k] + scheme_.alpha_f * (value[i] - old_[k]);
+    }
+    const Vec<double, dim> v = P * now + (prescribed - P * prescribed);
+    for (int i = 0; i < dim; ++i) u[node * B + i] = v[i];
   }
 
   /// Recomputes the rate at alpha_m after u changed.

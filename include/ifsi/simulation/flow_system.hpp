@@ -9,7 +9,9 @@
 #include "ifsi/assembly/dirichlet.hpp"
 #include "ifsi/assembly/flow_assembler.hpp"
 #include "ifsi/assembly/flow_faces.hpp"
+#include "ifsi/assembly/plane_boundary.hpp"
 #include "ifsi/core/error.hpp"
+#include "ifsi/core/projector.hpp"
 #include "ifsi/simulation/flow_boundary.hpp"
 
 namespace ifsi {
@@ -25,29 +27,29 @@ class FlowSystem {
   using Parameters = FluidParameters<typename Model::Rheology>;
 
   /// \throws Error (configuration) for a boundary name the mesh lacks, a boundary without any condition, or a
-  /// slip boundary that is not a plane normal to an axis.
+  /// slip boundary that is no plane.
   FlowSystem(const Mesh<Element>& mesh, Boundary boundary)
-      : mesh_(mesh), boundary_(std::move(boundary)), assembler_(mesh), mask_(mesh.n_nodes(), 0) {
+      : mesh_(mesh), boundary_(std::move(boundary)), assembler_(mesh), constraints_(mesh.n_nodes()) {
     check_complete();
     find_prescribed();
   }
 
   [[nodiscard]] const Mesh<Element>& mesh() const { return mesh_; }
-  [[nodiscard]] const ConstraintMask& mask() const { return mask_; }
+  [[nodiscard]] const Constraints<B>& constraints() const { return constraints_; }
   [[nodiscard]] BlockCsr<B> make_matrix() const { return assembler_.make_matrix(); }
   /// No boundary lets the fluid out: the pressure is known up to a constant.
   [[nodiscard]] bool enclosed() const {
     return boundary_.free().empty() && boundary_.tractions().empty() && boundary_.pressures().empty();
   }
 
-  /// Calls set(node, component, value) for every prescribed velocity at time t.
+  /// Calls set(node, value) for every node where velocity is prescribed: the value at time t outside of the
+  /// range of its projector. Slip prescribes zero.
   template <class Set>
   void for_each_prescribed(double t, Set&& set) const {
     for (const Prescribed& p : prescribed_) {
       const Vec<double, dim> value =
           p.profile < 0 ? Vec<double, dim>::zero() : boundary_.velocities()[p.profile].value(p.x, t);
-      for (int i = 0; i < dim; ++i)
-        if (p.components >> i & 1) set(p.node, i, value[i]);
+      set(p.node, value);
     }
   }
 
@@ -77,10 +79,12 @@ class FlowSystem {
     std::vector<double> T(R.size(), 0.0);
     add_tractions(t, T);
     std::array<double, dim + 1> sums{};
+    std::vector<double> free(R.begin(), R.end());
+    constraints_.project(mesh_.n_owned_nodes(), free);
     for (int node = 0; node < mesh_.n_owned_nodes(); ++node)
       for (int i = 0; i < dim; ++i) {
         const int k = node * B + i;
-        const double force = (mask_[node] >> i & 1 ? R[k] : 0.0) - T[k];
+        const double force = R[k] - free[k] - T[k];
         sums[i] += force;
         sums[dim] += force * u[k];
       }
@@ -113,7 +117,6 @@ class FlowSystem {
  private:
   struct Prescribed {
     int node;
-    std::uint8_t components;
     int profile;  ///< index into velocities, -1 for zero
     Vec<double, dim> x;
   };
@@ -148,44 +151,30 @@ class FlowSystem {
 
   /// Later statements win where boundaries meet; what slip fixes stays fixed.
   void find_prescribed() {
+    using Projector = Mat<double, dim>;
     const auto x = mesh_.node_coordinates();
-    constexpr std::uint8_t all = (1 << dim) - 1;
+    std::vector<Projector> free(mesh_.n_nodes(), Projector::identity());
     std::vector<int> profile(mesh_.n_nodes(), -1);
     for (const std::string& name : boundary_.slips()) {
-      const std::uint8_t normal = 1 << normal_axis(name);
-      for (int node : mesh_.nodes_on(name)) mask_[node] |= normal;
+      const Vec<double, dim> normal = plane_normal(mesh_, name);
+      for (int node : mesh_.nodes_on(name)) remove_direction(free[node], normal);
     }
     for (std::size_t k = 0; k < boundary_.velocities().size(); ++k)
       for (int node : mesh_.nodes_on(boundary_.velocities()[k].boundary)) {
-        mask_[node] = all;
+        free[node] = Projector::zero();
         profile[node] = static_cast<int>(k);
       }
-    for (int node = 0; node < mesh_.n_nodes(); ++node)
-      if (mask_[node] != 0) prescribed_.push_back({node, mask_[node], profile[node], x[node]});
-  }
-
-  /// The coordinate axis a plane boundary is normal to, the same on all ranks.
-  [[nodiscard]] int normal_axis(const std::string& name) const {
-    auto seen = Vec<double, dim>::zero();  // per axis: 1 when some face has a part of its normal along it
-    for_each_face_point<Cartesian>(mesh_, mesh_.boundary(name), true, [&](const FacePoint<dim>& q) {
-      const double dA = std::sqrt(dot(q.n_dA, q.n_dA));
-      for (int i = 0; i < dim; ++i)
-        if (std::abs(q.n_dA[i]) > 1e-8 * dA) seen[i] = 1.0;
-    });
-    mesh_.comm.sum_in_place(seen.data, dim);
-    int axis = -1, n_axes = 0;
-    for (int i = 0; i < dim; ++i)
-      if (seen[i] > 0.0) axis = i, ++n_axes;
-    if (n_axes != 1)
-      throw Error(ExitCode::configuration,
-                  "slip boundary \"" + name + "\" is not a plane normal to a coordinate axis");
-    return axis;
+    for (int node = 0; node < mesh_.n_nodes(); ++node) {
+      if (free[node] == Projector::identity()) continue;
+      constraints_.set_velocity(node, free[node]);
+      prescribed_.push_back({node, profile[node], x[node]});
+    }
   }
 
   const Mesh<Element>& mesh_;
   Boundary boundary_;
   FlowAssembler<Element, Model> assembler_;
-  ConstraintMask mask_;
+  Constraints<B> constraints_;
   std::vector<Prescribed> prescribed_;
 };
 

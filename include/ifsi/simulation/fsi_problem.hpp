@@ -213,7 +213,10 @@ class FsiProblem : public FlowProblem<Element, Model> {
   }
   SolverReport solve(BlockNorms target) {
     for (std::size_t i = 0; i < this->R_.size(); ++i) this->update_[i] = 0.0, this->R_[i] = -this->R_[i];
-    return patched_.solve(this->K_, K_s_constrained_, this->R_, this->update_, SolveTarget{target, {}});
+    const SolverReport report =
+        patched_.solve(this->K_, K_s_constrained_, this->R_, this->update_, SolveTarget{target, {}});
+    this->system_.constraints().project(mesh().n_nodes(), this->update_);
+    return report;
   }
 
  private:
@@ -254,9 +257,9 @@ class FsiProblem : public FlowProblem<Element, Model> {
   void update_pattern() {
     if (!K_s_.update()) return;
     K_s_constrained_ = BlockCsr<Flow::B>(K_s_.matrix().shared_pattern());
-    mask_s_.assign(K_s_constrained_.layout().n_local(), 0);
-    std::copy_n(this->system_.mask().begin(), mesh().n_owned_nodes(), mask_s_.begin());
-    K_s_constrained_.layout().update_ghosts(mask_s_.data());
+    constraints_s_ =
+        this->system_.constraints().carried_to(K_s_constrained_.layout(), mesh().n_owned_nodes());
+    constraints_s_.update_ghosts(K_s_constrained_.layout());
     std::vector<char> in_patch;
     for (int layer : cut_.layers(fsi_.patch_layers)) in_patch.push_back(layer <= fsi_.patch_layers);
     patched_.set_patch(this->K_, K_s_constrained_, in_patch);
@@ -308,19 +311,19 @@ class FsiProblem : public FlowProblem<Element, Model> {
 
   void assemble(bool tangent) {
     Flow::assemble(tangent ? &this->K_ : nullptr);
-    if (tangent) constrain_matrix<Flow::B>(this->system_.mask(), this->K_);
+    if (tangent) this->system_.constraints().eliminate(this->K_);
     move_solids();
     assemble_solids(tangent);
     spread_.assign(this->R_.size(), 0.0);
     C_.spread(R_s_, spread_.data(), Flow::B);
     for (std::size_t i = 0; i < spread_.size(); ++i) this->reaction_[i] += spread_[i];
     sum_taken();
-    constrain_residual<Flow::B>(this->system_.mask(), mesh().n_owned_nodes(), spread_);
+    this->system_.constraints().project(mesh().n_owned_nodes(), spread_);
     for (std::size_t i = 0; i < spread_.size(); ++i) this->R_[i] += spread_[i];
     spread_norm_ = block_norms<Flow::B>(mesh().nodes, spread_).momentum;
     if (!tangent) return;
     K_s_constrained_.values = K_s_.matrix().values;
-    constrain_matrix<Flow::B>(mask_s_, K_s_constrained_, false);
+    constraints_s_.eliminate(K_s_constrained_, false);
   }
 
   /// What holds the nodes outside of the mesh at their place: the sum of their forces, which C spreads
@@ -360,7 +363,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   FractionAt fraction_at_;
   CouplingMatrix<Element> K_s_;
   BlockCsr<Flow::B> K_s_constrained_;
-  ConstraintMask mask_s_;  ///< of the layout of K_s
+  Constraints<Flow::B> constraints_s_;  ///< of the layout of K_s
   PatchedSolver<Flow::B> patched_;
   std::vector<Point> R_s_;
   std::vector<Block> P_;  ///< change of a node's velocity per change of the fluid's at its place (eq. 25)

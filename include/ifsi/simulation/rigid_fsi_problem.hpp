@@ -126,6 +126,7 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     for (double& r : R_bordered_) r = -r;
     const SolverReport report = patched_.solve(K_bordered_, constraint_.matrix(), R_bordered_,
                                                update_bordered_, SolveTarget{target, {}});
+    constraints_.project(border_.layout().n_owned(), update_bordered_);
     std::copy_n(update_bordered_.begin(), mesh().n_owned_nodes() * Flow::B, this->update_.begin());
     mesh().nodes.update_ghosts(this->update_.data(), Flow::B);
     further_.assign(static_cast<std::size_t>(constraint_.n_extra()) * Flow::B, 0.0);
@@ -213,9 +214,9 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     P_.clear();
     for (const Immersed& body : bodies_)
       for (const Point& X : body.points) P_.push_back(Motion::velocity_at(body.motion.lever(X)));
-    free_ = constraint_.free_components(this->system_.mask());
+    free_ = constraint_.free_directions([&](int node) { return this->system_.constraints().velocity(node); });
     if (C_.revision() != revision_) renew_pattern();
-    mask_further();
+    constrain_further();
     scale_ = 0.0;
   }
 
@@ -235,21 +236,27 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     return node < mesh().n_owned_nodes() ? node : node + border_.n_here();
   }
 
-  /// Prescribed components of the constraint's layout: those of the fluid, the components of multipliers and
-  /// motions that do not exist.
-  void mask_further() {
+  /// What is free of the nodes of the constraint's layout: of the fluid, of multipliers and motions.
+  void constrain_further() {
     const Layout& layout = constraint_.matrix().layout();
-    mask_.assign(layout.n_local(), 0);
-    std::copy_n(this->system_.mask().begin(), mesh().n_owned_nodes(), mask_.begin());
-    constexpr std::uint8_t all = (1 << Flow::B) - 1;
-    for (int k = 0; k < border_.n_here(); ++k)
-      mask_[border_.local(k)] = k < constraint_.n_points() ? all & ~free_[k] : all;
+    constraints_ = this->system_.constraints().carried_to(layout, mesh().n_owned_nodes());
+    using Projector = Mat<double, Flow::B>;
+    for (int k = 0; k < border_.n_here(); ++k) constraints_.set(border_.local(k), Projector::zero());
+    for (int p = 0; p < constraint_.n_points() && border_.n_here() > 0; ++p) {
+      Projector P = Projector::zero();
+      for (int i = 0; i < Flow::dim; ++i)
+        for (int j = 0; j < Flow::dim; ++j) P(i, j) = free_[p](i, j);
+      constraints_.set(border_.local(p), P);
+    }
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (int j = 0; j < n && border_.n_here() > 0; ++j)
-        if (bodies_[b].motion.free()[j])
-          mask_[border_.local(constraint_.node_of(static_cast<int>(b), j))] &=
-              ~(1 << Constraint::component_of(j));
-    layout.update_ghosts(mask_.data());
+        if (bodies_[b].motion.free()[j]) {
+          const int node = border_.local(constraint_.node_of(static_cast<int>(b), j));
+          Projector P = constraints_[node];
+          P(Constraint::component_of(j), Constraint::component_of(j)) = 1.0;
+          constraints_.set(node, P);
+        }
+    constraints_.update_ghosts(layout);
   }
 
   void assemble(bool tangent) {
@@ -259,12 +266,11 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
     gaps_ = C_.velocities(new_v_.data(), Flow::B);
     for (std::size_t p = 0; p < gaps_.size(); ++p) {
       gaps_[p] -= P_[p] * bodies_[constraint_.body_of(p)].motion.new_velocity();
-      for (int i = 0; i < Flow::dim; ++i)
-        if (!(free_[p] >> i & 1)) gaps_[p][i] = 0.0;
+      gaps_[p] = free_[p] * gaps_[p];
     }
     spread_.assign(this->R_.size(), 0.0);
     C_.spread(lambda_, spread_.data(), Flow::B);
-    constrain_residual<Flow::B>(this->system_.mask(), mesh().n_owned_nodes(), spread_);
+    this->system_.constraints().project(mesh().n_owned_nodes(), spread_);
     spread_norm_ = block_norms<Flow::B>(mesh().nodes, spread_).momentum;
     R_bordered_.assign(static_cast<std::size_t>(border_.layout().n_local()) * Flow::B, 0.0);
     for (int i = 0; i < mesh().n_owned_nodes() * Flow::B; ++i) R_bordered_[i] = this->R_[i] + spread_[i];
@@ -272,13 +278,13 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
   }
 
   void assemble_matrix() {
-    constrain_matrix<Flow::B>(this->system_.mask(), this->K_);
+    this->system_.constraints().eliminate(this->K_);
     if (scale_ == 0.0) scale_ = mean_diagonal();
     border_.extend(this->K_, scale_, K_bordered_);
     std::vector<Mat<double, n>> K_r;
     for (const Immersed& body : bodies_) K_r.push_back(body.motion.tangent());
     constraint_.fill(border_, P_, K_r, scale_, scale_);
-    constrain_matrix<Flow::B>(mask_, constraint_.matrix(), false);
+    constraints_.eliminate(constraint_.matrix(), false);
   }
 
   /// Constraints, and the balance of forces and moments on the bodies.
@@ -298,9 +304,7 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
           at(constraint_.node_of(constraint_.body_of(p), j), Constraint::component_of(j)) -=
               P_[p](i, j) * lambda_[p][i];
       }
-    for (int k = 0; k < border_.n_here(); ++k)
-      for (int i = 0; i < Flow::B; ++i)
-        if (mask_[border_.local(k)] >> i & 1) at(k, i) = 0.0;
+    constraints_.project(border_.layout().n_owned(), R_bordered_);
   }
 
   /// Mean diagonal entry of the fluid's momentum rows near the bodies.
@@ -350,10 +354,10 @@ class RigidFsiProblem : public FlowProblem<Element, Model> {
   Constraint constraint_;
   Border border_;
   BlockCsr<Flow::B> K_bordered_;
-  ConstraintMask mask_;  ///< of the layout of the constraint's matrix
+  Constraints<Flow::B> constraints_;  ///< of the layout of the constraint's matrix
   PatchedSolver<Flow::B> patched_;
   std::vector<Mat<double, Flow::dim, n>> P_;  ///< rigid velocity at each point
-  std::vector<std::uint8_t> free_;            ///< components of each point's constraint
+  std::vector<Mat<double, Flow::dim>> free_;  ///< projector of each point's constraint
   std::vector<Point> lambda_, gaps_;          ///< multipliers; violation of the constraints at n + 1
   std::vector<double> new_v_, spread_, R_bordered_, update_bordered_, further_;
   double spread_norm_ = 0.0, scale_ = 0.0, alpha_f_ = 1.0;
