@@ -142,6 +142,14 @@ class Launcher(unittest.TestCase):
             self.assertIn("sudo apt-get install --no-install-recommends g++ libhypre-dev", done.stderr)
         self.assertEqual(done.returncode, 1)
 
+    def test_packages_of_a_case(self):
+        self.write("data/cases/cylinder.toml", "# Flow past a cylinder\n# needs: gmsh python3-yaml\n")
+        done = self.ifsi("run", "cylinder", PACKAGES_ABSENT="gmsh")
+        expected = "install -y" if os.geteuid() == 0 else "sudo apt-get install"
+        self.assertIn(expected + " --no-install-recommends gmsh\n", done.stderr + done.stdout + "\n")
+        self.write("data/cases/cylinder.toml", "# Flow past a cylinder\n")
+        self.assertNotIn("gmsh", self.ifsi("run", "cylinder", PACKAGES_ABSENT="gmsh").stderr)
+
     def test_missing_plotting_packages_do_not_fail_the_run(self):
         done = self.ifsi("run", "cylinder", PACKAGES_ABSENT="python3-matplotlib", APT_CODE="100")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -77,6 +77,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
     refuse_overlap(solids_.bodies());
     C_.locate(solids_.positions());
     if (!may_protrude) C_.require_all_found("solid nodes");
+    n_held_ = C_.lost().size();
   }
 
   [[nodiscard]] const ImmersedSolids<Body>& solids() const { return solids_; }
@@ -137,7 +138,9 @@ class FsiProblem : public FlowProblem<Element, Model> {
   /// One step; when the report says it did not converge nothing has changed.
   StepReport step(double dt) {
     begin_step(dt);
-    StepReport report = newton(*this, this->options_.newton, this->watch_);
+    StepReport report;
+    if (C_.lost().size() > n_held_) return report.failure = leaving(), report;
+    report = newton(*this, this->options_.newton, this->watch_);
     if (report.converged) check_change(report, dt);
     if (report.converged) {
       this->close_step();
@@ -220,6 +223,13 @@ class FsiProblem : public FlowProblem<Element, Model> {
   }
 
  private:
+  /// A node predicted outside of the mesh would be held there for good.
+  [[nodiscard]] std::string leaving() const {
+    return std::to_string(C_.lost().size() - n_held_) +
+           " solid nodes are predicted to leave the fluid mesh; expected none but the " +
+           std::to_string(n_held_) + " that lie outside from the beginning";
+  }
+
   /// How far nodes ended from their predicted places; too far is no step.
   void check_change(StepReport& report, double dt) const {
     const auto from = solids_.predicted(dt), to = solids_.new_positions();
@@ -372,6 +382,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   std::vector<double> new_v_, spread_;
   double min_det_F_ = 1.0, spread_norm_ = 0.0, c_of_patch_ = -1.0;
   int worst_cell_ = -1;
+  std::size_t n_held_ = 0;  ///< nodes outside of the mesh from the beginning
 };
 
 }  // namespace ifsi
