@@ -1,7 +1,9 @@
 """What a user does wrong: each ends with one clear message, which says what was expected, and with its exit code."""
 
+import os
 import pathlib
 import unittest
+import unittest.mock
 
 from programs import folder, run, settings
 
@@ -77,6 +79,25 @@ class BadInput(unittest.TestCase):
     def test_a_cut_that_is_no_symmetry_plane(self):
         self.assert_refused(run("sphere", *settings(model="quarter3d", solid__offset=0.01)), CONFIGURATION,
                             "no plane of symmetry", "solid.offset = 0.01", "expected solid.offset = 0", "rigid3d")
+
+    def test_a_sector_that_is_no_sixth(self):
+        self.assert_refused(run("semilunar_valve", *settings(sector__angle=45)), CONFIGURATION, "sector.angle = 45",
+                            "no plane of symmetry", "expected 60")
+
+    def test_leaflets_that_leave_the_vessel(self):
+        self.assert_refused(run("semilunar_valve", *settings(mesh__h_valve=0.35, mesh__h=0.7, solid__protrusion=0.2)),
+                            CONFIGURATION, "nodes of the leaflets lie outside of the vessel by up to 0.2",
+                            "solid.protrusion_max = 0.08")
+
+    def test_flow_curve_that_jumps_back(self):
+        with folder() as scratch:
+            file = scratch / "flow.csv"
+            file.write_text("t [s],q [cm^3/s]\n0,0\n0.2,1\n0.1,2\n")
+            self.assert_refused(run("semilunar_valve", *settings(inlet__curve=file)), FILE, f"{file}:4", "ascending")
+
+    def test_no_gmsh(self):
+        with folder() as scratch, unittest.mock.patch.dict(os.environ, PATH=str(scratch)):
+            self.assert_refused(run("semilunar_valve"), CONFIGURATION, "gmsh", "apt-get install gmsh")
 
     def test_incompressible_solid_in_a_displacement_formulation(self):
         self.assert_refused(run("turek_hron", *settings(solid__nu=0.5)), CONFIGURATION, "solid.nu = 0.5 is out of range",

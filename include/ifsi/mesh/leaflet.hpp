@@ -136,8 +136,8 @@ LeafletMesh<Element> leaflet_mesh(const AorticRoot& root, const Leaflet& leaflet
   auto& mesh = result.mesh;
   mesh = box<Element>({half ? 0.0 : -1.0, 0.0, -0.5}, {1.0, 1.0, 0.5},
                       {half ? n_a : 2 * n_a, cells(extent[1]), layers});
-  mesh.boundary_names = {half ? "cut" : "commissure_2", "commissure", "attachment",
-                         "free_edge",                   "ventricle",  "aorta"};
+  mesh.boundary_names = {
+      half ? "cut" : "commissure_2", "commissure", "attachment", "free_edge", "ventricle", "aorta"};
   for (int p = 0; p < mesh.n_points(); ++p)
     if (mesh.points[p][1] > 1.0 - 1e-9 && mesh.points[p][2] < -0.5 + 1e-9) result.free_edge.push_back(p);
   std::sort(result.free_edge.begin(), result.free_edge.end(),

@@ -13,6 +13,7 @@
 #include "ifsi/simulation/flow_curve.hpp"
 #include "ifsi/simulation/fsi_case.hpp"
 #include "ifsi/simulation/semilunar_valve.hpp"
+#include "ifsi/simulation/valve_figures.hpp"
 
 namespace ifsi {
 
@@ -48,9 +49,7 @@ double plug_area(const Mesh<Element>& mesh) {
 
 inline FlowBoundary<3> valve_boundary(const ValveOptions& o, const FlowCurve& flow, double area) {
   FlowBoundary<3> boundary;
-  boundary.velocity("inlet", [=](const auto&, double t) {
-    return Vec<double, 3>{0.0, 0.0, flow(t) / area};
-  });
+  boundary.velocity("inlet", [=](const auto&, double t) { return Vec<double, 3>{0.0, 0.0, flow(t) / area}; });
   boundary.traction_free("outlet"), boundary.backflow("outlet", o.backflow);
   if (o.is_sector()) boundary.slip("cut_0"), boundary.slip("cut_1");
   boundary.no_slip("wall");
@@ -72,14 +71,10 @@ class ValveHistory {
         annulus_(problem.mesh(), 2, -0.05),
         balances_(problem),
         pictures_(run, o.picture_every) {
-    std::vector<Column> columns = {{"t", "s"},
-                                   {"dt", "s"},
-                                   {"flow", "cm^3/s"},
-                                   {"goa", "cm^2"},
-                                   {"v_max", "cm/s"},
-                                   {"pressure_drop", "dyn/cm^2"},
-                                   {"det_f_min", "-"},
-                                   {"elastic_energy", "erg"},
+    std::vector<Column> columns = {{"t", "s"},         {"dt", "s"},
+                                   {"flow", "cm^3/s"}, {"goa", "cm^2"},
+                                   {"v_max", "cm/s"},  {"pressure_drop", "dyn/cm^2"},
+                                   {"det_f_min", "-"}, {"elastic_energy", "erg"},
                                    {"lost_nodes", "-"}};
     for (const Column& c : Balances<Problem>::columns()) columns.push_back(c);
     if (run.restarted()) {
@@ -155,8 +150,8 @@ void check_protrusion(Run& run, const Problem& problem, double allowed) {
   if (outside > 0)
     throw Error(ExitCode::configuration,
                 std::to_string(outside) + " nodes of the leaflets lie outside of the vessel by up to " +
-                    std::to_string(deepest) + " cm; expected at most solid.protrusion_max = " +
-                    std::to_string(allowed));
+                    std::to_string(deepest) +
+                    " cm; expected at most solid.protrusion_max = " + std::to_string(allowed));
   run.metric("protruding_nodes", static_cast<double>(problem.interpolation().lost().size()));
   run.metric("protrusion_max", deepest, "cm");
 }
@@ -168,8 +163,8 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
   const FlowCurve flow(o.curve.empty() ? data + "/curves/aortic_flow.csv" : o.curve);
   if (flow.begin() > 0.0 || flow.end() < o.time.end)
     throw Error(ExitCode::configuration, "inlet.curve covers " + std::to_string(flow.begin()) + " to " +
-                                             std::to_string(flow.end()) + " s; expected 0 to time.end = " +
-                                             std::to_string(o.time.end));
+                                             std::to_string(flow.end()) +
+                                             " s; expected 0 to time.end = " + std::to_string(o.time.end));
   const auto mesh = distribute(vessel_mesh(run, o, data + "/geometry/vessel.geo"), run.comm());
   const SolidParameters<3> solid{
       .rho_s = o.rho_s, .rho_f = o.rho_f, .mu_f = o.mu, .mu_s = 0.0, .gravity = {}};

@@ -1,4 +1,4 @@
-#include "ifsi/simulation/semilunar_valve.hpp"
+#include "ifsi/simulation/valve_figures.hpp"
 
 #include "ifsi/simulation/profiles.hpp"
 

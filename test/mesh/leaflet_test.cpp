@@ -1,0 +1,121 @@
+#include "ifsi/mesh/leaflet.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ifsi/element/elements.hpp"
+#include "ifsi/mesh/check.hpp"
+#include "mesh/measure.hpp"
+
+namespace ifsi {
+namespace {
+
+using testing_mesh::volume;
+constexpr double degree = std::numbers::pi / 180.0;
+
+TEST(AorticRoot, AttachmentLinesLieOnTheStraightVessel) {
+  const AorticRoot root;
+  for (double angle = -180.0; angle <= 180.0; angle += 7.0)
+    EXPECT_EQ(root.wall_radius(angle * degree, root.attachment(angle * degree)), root.radius);
+  EXPECT_EQ(root.attachment(0.0), 0.0);
+  EXPECT_NEAR(root.attachment(60.0 * degree), root.commissure, 1e-14);
+  EXPECT_NEAR(root.attachment(100.0 * degree), root.attachment(20.0 * degree),
+              1e-14);  // three times the same
+}
+
+TEST(AorticRoot, MapKeepsPlanesThroughTheAxisAndTakesTheWallToTheWall) {
+  const AorticRoot root;
+  for (double angle : {-170.0, -60.0, 0.0, 33.0, 60.0, 120.0})
+    for (double z : {-1.0, 0.0, 0.7, 1.2, 2.0, 2.4, 5.0}) {
+      const double c = std::cos(angle * degree), s = std::sin(angle * degree);
+      for (double r : {0.0, 0.6, root.radius}) {
+        const auto x = root.map({r * c, r * s, z});
+        EXPECT_EQ(x[2], z);
+        EXPECT_NEAR(x[0] * s - x[1] * c, 0.0, 1e-15);
+        if (r < root.radius) continue;
+        EXPECT_NEAR(std::hypot(x[0], x[1]), root.wall_radius(angle * degree, z), 1e-14);
+      }
+    }
+  EXPECT_NEAR(root.wall_radius(0.0, 1.2), 1.3 * root.radius, 1e-12);  // the deepest place of a sinus
+}
+
+TEST(AorticRoot, RefusesWhatIsNoRoot) {
+  EXPECT_THROW((AorticRoot{.height = 1.0, .commissure = 1.2}.check()), Error);
+  EXPECT_THROW((AorticRoot{.lobe = -0.1}.check()), Error);
+}
+
+template <class Element>
+class LeafletMeshes : public testing::Test {};
+using SheetElements = testing::Types<Hex1, Hex2>;
+TYPED_TEST_SUITE(LeafletMeshes, SheetElements);
+
+TYPED_TEST(LeafletMeshes, AreSoundAndAsThickAsTold) {
+  const AorticRoot root;
+  const Leaflet leaflet;
+  for (bool half : {true, false}) {
+    const auto mesh = leaflet_mesh<TypeParam>(root, leaflet, 0.1, 2, half).mesh;
+    check(mesh);  // no inverted cell
+    const auto area = testing_mesh::boundary_measures(mesh);
+    const double middle = 0.5 * (area.at("ventricle") + area.at("aorta"));
+    EXPECT_NEAR(volume(mesh), leaflet.thickness * middle, 2e-3 * volume(mesh));
+    EXPECT_NEAR(middle, half ? 2.05 : 4.10, half ? 0.1 : 0.2);  // cm^2
+  }
+}
+
+TYPED_TEST(LeafletMeshes, StayWithinTheirThirdAndProtrudeNoFurtherThanTold) {
+  const AorticRoot root;
+  const Leaflet leaflet;
+  const auto mesh = leaflet_mesh<TypeParam>(root, leaflet, 0.1, 1, false).mesh;
+  for (const auto& x : mesh.points) {
+    const double to_plane = x[0] * std::sin(60.0 * degree) - std::abs(x[1]) * std::cos(60.0 * degree);
+    EXPECT_GT(to_plane, leaflet.gap - leaflet.thickness);
+    EXPECT_LT(std::hypot(x[0], x[1]), root.radius + leaflet.protrusion + leaflet.thickness);
+  }
+  const auto attached = std::find(mesh.boundary_names.begin(), mesh.boundary_names.end(), "attachment");
+  for (const auto& face : mesh.boundary_faces)
+    if (face.boundary == attached - mesh.boundary_names.begin())
+      for (int a : TypeParam::face_nodes(face.local_face)) {
+        const auto& x = mesh.points[mesh.cells[face.cell][a]];
+        EXPECT_GT(std::hypot(x[0], x[1]), root.wall_radius(std::atan2(x[1], x[0]), x[2]));
+      }
+}
+
+TEST(LeafletMesh, HalfLiesOnItsCutAndIsHalfOfTheWhole) {
+  const AorticRoot root;
+  const Leaflet leaflet;
+  const auto half = leaflet_mesh<Hex2>(root, leaflet, 0.1, 1, true);
+  const auto whole = leaflet_mesh<Hex2>(root, leaflet, 0.1, 1, false);
+  int on_cut = 0;
+  for (const auto& x : half.mesh.points) {
+    EXPECT_GE(x[1], 0.0);
+    on_cut += x[1] == 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(on_cut, 3 * (2 * 11 + 1));  // eleven cells from the attachment to the free edge
+  EXPECT_NEAR(2.0 * volume(half.mesh), volume(whole.mesh), 1e-9 * volume(whole.mesh));
+  EXPECT_EQ(half.free_edge.size(), 2u * 10u + 1u);
+  EXPECT_EQ(whole.free_edge.size(), 2u * 20u + 1u);
+  for (std::size_t k = 1; k < half.free_edge.size(); ++k)
+    EXPECT_GT(half.mesh.points[half.free_edge[k]][1], half.mesh.points[half.free_edge[k - 1]][1]);
+}
+
+TEST(LeafletMesh, OthersAreTheFirstTurned) {
+  const AorticRoot root;
+  const auto first = leaflet_mesh<Hex1>(root, {}, 0.2, 1, false).mesh;
+  const auto second = leaflet_mesh<Hex1>(root, {}, 0.2, 1, false, 120.0 * degree).mesh;
+  const double c = std::cos(120.0 * degree), s = std::sin(120.0 * degree);
+  for (int p = 0; p < first.n_points(); ++p) {
+    const auto &x = first.points[p], &y = second.points[p];
+    EXPECT_NEAR(y[0], c * x[0] - s * x[1], 1e-13);
+    EXPECT_NEAR(y[1], s * x[0] + c * x[1], 1e-13);
+  }
+}
+
+TEST(LeafletMesh, RefusesWhatIsNoLeaflet) {
+  const AorticRoot root;
+  EXPECT_THROW(LeafletSurface(root, {.height = 1.0}), Error);  // below the commissures
+  EXPECT_THROW(LeafletSurface(root, {.gap = 0.005}), Error);   // through the neighbour
+  EXPECT_THROW(LeafletSurface(root, {.rounding = 0.8}), Error);
+  EXPECT_THROW(LeafletSurface(root, {.protrusion = -0.1}), Error);
+}
+
+}  // namespace
+}  // namespace ifsi
