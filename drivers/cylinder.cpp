@@ -40,7 +40,7 @@ void cylinder(Run& run, const Options& o) {
   if (setup.steady) {
     solve_steady(run, flow);
     measure();
-    write_fields(run, flow);
+    write_fields(run, flow, {"cylinder"});
     return figures.report_steady(run, o.problem);
   }
   CsvFile history = run.csv("history.csv", {{"t", "s"}, {"cd", "-"}, {"cl", "-"}, {"dp", "Pa"}}, flow.time());
@@ -51,7 +51,7 @@ void cylinder(Run& run, const Options& o) {
     measure();
     history.row({flow.time(), figures.cd.last(), figures.cl.last(), figures.dp.last()});
     if (flow.time() < next_frame && flow.time() < o.time.end) return;
-    write_fields(series, flow);
+    write_fields(series, flow, {"cylinder"});
     next_frame += o.time.end / o.frames;
   });
   figures.report_transient(run, o.problem, o.settle);

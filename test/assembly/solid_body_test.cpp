@@ -347,8 +347,9 @@ TYPED_TEST(SolidBodyContract, FieldsOfAHomogeneousDeformation) {
   if (TestFixture::axisymmetric) F(2, 2) = 1.2;
   const auto sigma = (1 / det(F)) * (body.law().first_piola(F, Vec<double, dim>{}) * transpose(F));
   const auto E = 0.5 * (transpose(F) * F - Mat<double, 3>::identity());
-  const auto s = principal_values(sigma);
-  const auto f = body.fields(TestFixture::affine(body, H));
+  const auto s = principal_values(sigma), e = principal_values(E);
+  const auto u = TestFixture::affine(body, H);
+  const auto f = body.fields(u);
   const int row[] = {0, 1, 2, 0, 1, 0}, column[] = {0, 1, 2, 1, 2, 2};
   for (int a = 0; a < body.n_nodes(); ++a) {
     EXPECT_NEAR(f.det_F[a], det(F), 1e-13);
@@ -357,12 +358,44 @@ TYPED_TEST(SolidBodyContract, FieldsOfAHomogeneousDeformation) {
       EXPECT_NEAR(f.green_lagrange[6 * a + k], E(row[k], column[k]), 1e-13);
     }
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(f.principal[3 * a + k], s[k], 1e-12);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(f.principal_strain[3 * a + k], e[k], 1e-13);
   }
+  PrincipalSamples samples;
+  body.add_principal_samples(u, samples);
+  double volume = 0.0;
+  for (const auto& sample : samples.stress) {
+    EXPECT_NEAR(sample.value, s[0], 1e-12);
+    volume += sample.volume;
+  }
+  for (const auto& sample : samples.strain) EXPECT_NEAR(sample.value, e[0], 1e-13);
+  EXPECT_NEAR(volume, body.totals({u}, body.all_cells()).reference_volume, 1e-12);
 }
 
 using Quads = SolidBody<Quad1, NeoHookean>;
 Quads quads(SolidParameters<2> p = {}) {
   return Quads("flag", distorted_box<Quad1>(), NeoHookean(Lame{1, 2}), p);
+}
+
+// Simple shear by g and a stretch by l in plane strain, both turned: sigma = (mu (b - I) + lambda log J I) /
+// J.
+TEST(SolidBody, LargestPrincipalStressAndStrainInClosedForm) {
+  const auto body = quads();
+  constexpr double mu = 1, lambda = 2, g = 0.6, l = 1.3;
+  const double shear = g * g / 2 + g * std::sqrt(1 + g * g / 4), angle = 0.7;
+  const Mat<double, 2> Q = {std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle)};
+  struct Example {
+    Mat<double, 2> F;
+    double stress, strain;
+  };
+  for (const auto& [F, stress, strain] :
+       {Example{{1, g, 0, 1}, mu * shear, shear / 2},
+        Example{{1, 0, 0, l}, (mu * (l * l - 1) + lambda * std::log(l)) / l, (l * l - 1) / 2}}) {
+    const Mat<double, 2> H = Q * F - Mat<double, 2>::identity();
+    PrincipalSamples samples;
+    body.add_principal_samples(nodal<2>(body.mesh().points, [&](const auto& X) { return H * X; }), samples);
+    EXPECT_NEAR(volume_quantile(samples.stress, 0.5), stress, 1e-13);
+    EXPECT_NEAR(volume_quantile(samples.strain, 0.5), strain, 1e-13);
+  }
 }
 
 /// Mean dilatation with a compressible law: the same homogeneous stress as without.

@@ -19,6 +19,7 @@
 #include "ifsi/solid/principal.hpp"
 #include "ifsi/solid/solid_cell.hpp"
 #include "ifsi/solid/surface_load.hpp"
+#include "ifsi/solid/volume_quantile.hpp"
 
 namespace ifsi {
 
@@ -49,9 +50,15 @@ struct SolidTotals {
 };
 
 /// Nodal averages for output. Tensors hold 6 numbers per node: xx, yy, zz, xy, yz, xz (for a body of
-/// revolution x, y, z stand for r, z, theta); principal stresses 3, largest first.
+/// revolution x, y, z stand for r, z, theta); principal stresses and strains 3, largest first (eq. 30).
 struct SolidFields {
-  std::vector<double> cauchy, green_lagrange, principal, det_F;
+  std::vector<double> cauchy, green_lagrange, principal, principal_strain, det_F;
+};
+
+/// Largest principal Cauchy stress and Green-Lagrange strain at each quadrature point (eq. 30), with the
+/// reference volume there.
+struct PrincipalSamples {
+  std::vector<VolumeSample> stress, strain;
 };
 
 /// What the loops over a body hand to their caller: R has dim numbers per node, K is made of dim x dim
@@ -145,11 +152,20 @@ class SolidBody {
 
   /// Stress and strain, averaged over the cells around each node with weights int |N_a| dV.
   [[nodiscard]] SolidFields fields(std::span<const double> u) const;
+  /// Appends those of all points, unsmoothed.
+  void add_principal_samples(std::span<const double> u, PrincipalSamples& samples) const;
 
  private:
   using T = Pack<lanes>;
   using Kernel = SolidCell<Element, Law, Formulation, Coordinates, Rule_, T>;
   static constexpr int voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
+  /// The symmetric tensor of six numbers in that order.
+  template <class Entry>
+  static Mat<double, 3> symmetric(Entry&& entry) {
+    Mat<double, 3> S;
+    for (int s = 0; s < 6; ++s) S(voigt[s][0], voigt[s][1]) = S(voigt[s][1], voigt[s][0]) = entry(s);
+    return S;
+  }
 
   /// Cells worked on together; the last batch repeats its last cell in the lanes beyond n_cells.
   struct Batch {
@@ -404,14 +420,14 @@ void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_loads(double factor, std:
 template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
 SolidFields SolidBody<E, Law, Form, Coords, Rule, lanes>::fields(std::span<const double> u) const {
   SolidFields f{std::vector<double>(6 * n_nodes()), std::vector<double>(6 * n_nodes()),
-                std::vector<double>(3 * n_nodes()), std::vector<double>(n_nodes())};
+                std::vector<double>(3 * n_nodes()), std::vector<double>(3 * n_nodes()),
+                std::vector<double>(n_nodes())};
   std::vector<double> weight(n_nodes());
   for_each_batch({u}, all_cells(), [&](const Kernel& kernel, const Batch& batch) {
     const auto sigma = kernel.cauchy_stresses();
     for (int q = 0; q < Rule::n; ++q) {
-      const Mat<T, 3> F = kernel.deformation_gradient(q);
-      const Mat<T, 3> strain = T(0.5) * (transpose(F) * F - Mat<T, 3>::identity());
-      const T J = det(F), dV = kernel.reference_volume(q);
+      const Mat<T, 3> strain = kernel.green_lagrange(q);
+      const T J = det(kernel.deformation_gradient(q)), dV = kernel.reference_volume(q);
       for (int l = 0; l < batch.n_cells; ++l)
         for (int a = 0; a < n; ++a) {
           const int node = mesh_.cells[batch.cell[l]][a];
@@ -427,6 +443,25 @@ SolidFields SolidBody<E, Law, Form, Coords, Rule, lanes>::fields(std::span<const
   });
   finish(f, weight);
   return f;
+}
+
+template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
+void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_principal_samples(std::span<const double> u,
+                                                                         PrincipalSamples& samples) const {
+  for_each_batch({u}, all_cells(), [&](const Kernel& kernel, const Batch& batch) {
+    const auto sigma = kernel.cauchy_stresses();
+    for (int q = 0; q < Rule::n; ++q) {
+      const Mat<T, 3> strain = kernel.green_lagrange(q);
+      const T dV = kernel.reference_volume(q);
+      const auto largest = [](const Mat<T, 3>& A, int l) {
+        return principal_values(symmetric([&](int s) { return A(voigt[s][0], voigt[s][1])[l]; }))[0];
+      };
+      for (int l = 0; l < batch.n_cells; ++l) {
+        samples.stress.push_back({largest(sigma[q], l), dV[l]});
+        samples.strain.push_back({largest(strain, l), dV[l]});
+      }
+    }
+  });
 }
 
 template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
@@ -453,14 +488,12 @@ void SolidBody<E, Law, Form, Coords, Rule, lanes>::finish(SolidFields& f,
   for (int a = 0; a < n_nodes(); ++a) {
     if (weight[a] == 0) continue;
     f.det_F[a] /= weight[a];
-    Mat<double, 3> sigma;
-    for (int s = 0; s < 6; ++s) {
-      f.green_lagrange[6 * a + s] /= weight[a];
-      f.cauchy[6 * a + s] /= weight[a];
-      sigma(voigt[s][0], voigt[s][1]) = sigma(voigt[s][1], voigt[s][0]) = f.cauchy[6 * a + s];
-    }
-    const auto values = principal_values(sigma);
-    std::copy(values.begin(), values.end(), f.principal.begin() + 3 * a);
+    for (int s = 6 * a; s < 6 * (a + 1); ++s) f.green_lagrange[s] /= weight[a], f.cauchy[s] /= weight[a];
+    const auto put_principal = [a](const std::vector<double>& tensors, std::vector<double>& values) {
+      const auto v = principal_values(symmetric([&](int s) { return tensors[6 * a + s]; }));
+      std::copy(v.begin(), v.end(), values.begin() + 3 * a);
+    };
+    put_principal(f.cauchy, f.principal), put_principal(f.green_lagrange, f.principal_strain);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ifsi/assembly/integrals.hpp"
+#include "ifsi/assembly/wall_traction.hpp"
 #include "ifsi/io/mesh_checkpoint.hpp"
 #include "ifsi/io/parameters.hpp"
 #include "ifsi/linalg/block_norms.hpp"
@@ -118,6 +119,13 @@ class FlowProblem {
 
   /// Force of the fluid on a boundary (eq. 12) at time state().time_alpha(), of the last step.
   [[nodiscard]] Point force(const std::string& boundary) const { return system_.force(boundary, reaction_); }
+
+  /// Traction of the fluid on walls and the wall shear stress (eq. 31) at time state().time_alpha(), of the
+  /// last step. Collective.
+  [[nodiscard]] WallTraction<dim> wall_traction(const std::vector<std::string>& walls) const
+      requires(Element::shape != Shape::tet || Element::order == 1) {
+    return ifsi::wall_traction<typename Model::Coordinates>(mesh(), walls, reaction_);
+  }
 
   /// What the surroundings give to the fluid at time state().time_alpha() of the last step (eq. 26).
   [[nodiscard]] typename System::Supply supply() const {

@@ -64,15 +64,15 @@ struct LeafletOptions {
   }
 };
 
-/// The deformed bodies as one grid with velocity, det F and largest principal stress; rank 0 writes all of
-/// it.
+/// The deformed bodies as one grid with velocity, det F and the largest principal stress and strain (eq. 30);
+/// rank 0 writes all of it.
 template <class Body>
 [[nodiscard]] VtuPiece solid_piece(const ImmersedSolids<Body>& solids, bool root) {
   using Element = typename Body::Element;
   constexpr int dim = Element::dim;
   VtuPiece piece;
   VtuField velocity{"velocity", "length/time", 3, {}}, det_F{"det_F", "-", 1, {}},
-      stress{"principal_stress_1", "force/area", 1, {}};
+      stress{"principal_stress_1", "force/area", 1, {}}, strain{"principal_strain_1", "-", 1, {}};
   const auto u = solids.displacement(), v = solids.velocity();
   for (std::size_t b = 0; root && b < solids.bodies().size(); ++b) {
     const Body& body = solids.bodies()[b];
@@ -86,6 +86,7 @@ template <class Body>
       }
       det_F.values.push_back(fields.det_F[a]);
       stress.values.push_back(fields.principal[3 * a]);
+      strain.values.push_back(fields.principal_strain[3 * a]);
     }
     for (const auto& cell : body.mesh().cells) {
       for (int k : Element::vtk_order) piece.connectivity.push_back(first + cell[k]);
@@ -93,16 +94,18 @@ template <class Body>
       piece.types.push_back(static_cast<unsigned char>(Element::vtk_type));
     }
   }
-  piece.point_fields = {velocity, det_F, stress};
+  piece.point_fields = {velocity, det_F, stress, strain};
   return piece;
 }
 
 /// fluid.pvd and solid.pvd, a frame whenever `interval` has passed.
 class FsiPictures {
  public:
-  FsiPictures(Run& run, double interval)
+  /// \param walls boundaries whose shear stress is wanted
+  FsiPictures(Run& run, double interval, std::vector<std::string> walls = {})
       : fluid_(run.comm(), run.path(""), "fluid"),
         solid_(run.comm(), run.path(""), "solid"),
+        walls_(std::move(walls)),
         interval_(interval) {}
 
   /// A restarted run keeps the frames up to its time.
@@ -114,13 +117,14 @@ class FsiPictures {
   template <class Problem>
   void write(const Problem& problem, bool always = false) {
     if (!always && problem.time() < next_) return;
-    write_fields(fluid_, problem);
+    write_fields(fluid_, problem, walls_);
     solid_.write(problem.time(), solid_piece(problem.solids(), problem.mesh().comm.is_root()));
     next_ = (std::floor(problem.time() / interval_ + 1e-9) + 1.0) * interval_;
   }
 
  private:
   VtuSeries fluid_, solid_;
+  std::vector<std::string> walls_;
   double interval_, next_ = 0.0;
 };
 
@@ -197,6 +201,7 @@ template <class Problem>
 /// Largest values over a run that every immersed case reports.
 struct FsiExtremes {
   double area_change = 0.0, det_F_min = 1.0, mesh_ratio = 0.0;
+  double s1_p99 = 0.0;  ///< of the largest principal stress, over 99 % of the volume (eq. 30)
   int lost = 0;
 
   template <class Problem>
@@ -204,6 +209,7 @@ struct FsiExtremes {
     const auto totals = problem.solids().totals();
     area_change = std::max(area_change, std::abs(totals.volume / totals.reference_volume - 1.0));
     det_F_min = std::min(det_F_min, totals.deformation.min_det_F);
+    s1_p99 = std::max(s1_p99, volume_quantile(problem.solids().principal_samples().stress, 0.99));
     mesh_ratio = std::max(mesh_ratio, problem.ratio().ratio);
     lost = std::max(lost, static_cast<int>(problem.interpolation().lost().size()));
     return totals;
@@ -211,6 +217,7 @@ struct FsiExtremes {
   void report(Run& run) const {
     run.metric("area_change_max", area_change);
     run.metric("det_f_min", det_F_min);
+    run.metric("s1_p99", s1_p99, "force/area");
     run.metric("mesh_ratio_max", mesh_ratio);
     run.metric("lost_nodes_max", lost);
     if (mesh_ratio > 1.0) run.log(coarse_solid_warning(mesh_ratio));

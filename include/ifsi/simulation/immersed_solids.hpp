@@ -143,6 +143,15 @@ class ImmersedSolids {
     return sum;
   }
 
+  /// Largest principal stress and strain at all quadrature points at the last completed level.
+  [[nodiscard]] PrincipalSamples principal_samples() const {
+    PrincipalSamples samples;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      bodies_[b].add_principal_samples(
+          std::span<const double>(u_old_).subspan(first_node_[b] * dim, bodies_[b].n_dofs()), samples);
+    return samples;
+  }
+
   /// Rate of change of the momentum of all bodies less their weight, at the level where the equations hold.
   [[nodiscard]] Point rate_of_momentum() const {
     auto sum = Point::zero();

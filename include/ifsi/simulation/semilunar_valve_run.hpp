@@ -70,7 +70,7 @@ class ValveHistory {
         behind_(problem.mesh(), 2, o.z_behind),
         annulus_(problem.mesh(), 2, -0.05),
         balances_(problem),
-        pictures_(run, o.picture_every) {
+        pictures_(run, o.picture_every, {"wall"}) {
     std::vector<Column> columns = {{"t", "s"},         {"dt", "s"},
                                    {"flow", "cm^3/s"}, {"goa", "cm^2"},
                                    {"v_max", "cm/s"},  {"pressure_drop", "dyn/cm^2"},

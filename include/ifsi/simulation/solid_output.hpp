@@ -33,7 +33,8 @@ template <class Body>
                         {"det_F", "-", 1, std::move(fields.det_F)},
                         {"cauchy_stress", "force/area", 6, std::move(fields.cauchy)},
                         {"principal_stress", "force/area", 3, std::move(fields.principal)},
-                        {"green_lagrange", "-", 6, std::move(fields.green_lagrange)}};
+                        {"green_lagrange", "-", 6, std::move(fields.green_lagrange)},
+                        {"principal_strain", "-", 3, std::move(fields.principal_strain)}};
   return piece;
 }
 

@@ -112,6 +112,11 @@ class SolidCell {
 
   /// Deformation gradient at point q in all three directions.
   [[nodiscard]] Mat<T, 3> deformation_gradient(int q) const { return in_space(deformation_.F[q], 1.0); }
+  /// E = (F^T F - I) / 2 at point q.
+  [[nodiscard]] Mat<T, 3> green_lagrange(int q) const {
+    const Mat<T, 3> F = deformation_gradient(q);
+    return T(0.5) * (transpose(F) * F - Mat<T, 3>::identity());
+  }
   [[nodiscard]] T reference_volume(int q) const { return deformation_.dV[q]; }
   /// Elastic Cauchy stress at each point in all three directions.
   [[nodiscard]] std::array<Mat<T, 3>, n_points> cauchy_stresses() const {
