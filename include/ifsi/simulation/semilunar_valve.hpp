@@ -20,7 +20,7 @@ struct ValveOptions {
   AorticRoot root;
   Leaflet leaflet;
   double downstream = 11.8, angle = 60.0, h = 0.35, h_valve = 0.12, growth = 0.2, wall_ratio = 0.7;
-  double spacing = 0.9, protrusion_max = 0.08;
+  double spacing = 0.65, protrusion_max = 0.08;
   int layers = 1;
   double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 2e6, nu = 0.4, backflow = 1.0;
   double z_before = -1.0, z_behind = 5.0, picture_every = 0.02;
@@ -30,7 +30,8 @@ struct ValveOptions {
 
   ValveOptions() {
     time.dt = 1e-3, time.end = 1.0, time.adaptive = true, time.dt_max = 2e-3, time.checkpoint_every = 0.1;
-    flow.rho_inf = 0.0;
+    flow.rho_inf = 0.0, flow.newton.rtol = 1e-4;
+    fsi.patch_layers = 0;  // in space a layer costs more in factorisation than it saves in iterations
   }
 
   void declare(Parameters& params) {

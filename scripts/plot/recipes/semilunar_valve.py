@@ -18,19 +18,25 @@ def turned(points, angle):
     return points @ numpy.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
 
 
+def without_slivers(points, corners):
+    """Triangles but those that a cell has with a plane beside its edge: drawn, they smear."""
+    a, b, c = (points[corners[:, k]] for k in range(3))
+    return corners[numpy.abs(numpy.cross(b - a, c - a)) > 1e-8]
+
+
 def half_planes(run, file):
     """The plane y = 0 of the whole valve: (radial coordinate and z, triangles, data) of its parts. A sector holds
     one half of it on its first cut, and the other one, behind the axis, on its second."""
     grid = vtu.read(file)
     if run.parameter("model") != "sector":
         points, corners, data = triangles.section(grid, 1, 1e-6)
-        return [(points[:, [0, 2]], corners, data)]
+        return [(points[:, [0, 2]], without_slivers(points[:, [0, 2]], corners), data)]
     parts = []
     for angle, side in ((0.0, 1), (SIXTH, -1)):
         grid.points = turned(grid.points, -angle)
         points, corners, data = triangles.section(grid, 1, 1e-6 * side)
         grid.points = turned(grid.points, angle)
-        parts.append((points[:, [0, 2]] * [side, 1], corners, data))
+        parts.append((points[:, [0, 2]] * [side, 1], without_slivers(points[:, [0, 2]], corners), data))
     return parts
 
 
