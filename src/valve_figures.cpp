@@ -35,7 +35,7 @@ void ValveCurves::find_opening(Figures& f) const {
 ValveCurves::Figures ValveCurves::figures(double rho) const {
   Figures f;
   if (samples_.empty()) return f;
-  f.goa_rest = samples_.front().area;
+  f.goa_rest = samples_.front().area, f.goa_end = samples_.back().area;
   for (const Sample& s : samples_) {
     f.goa_max = std::max(f.goa_max, s.area), f.jet_peak = std::max(f.jet_peak, s.speed);
     f.drop_peak = std::max(f.drop_peak, s.pressure_drop);
@@ -58,8 +58,9 @@ ValveCurves::Figures ValveCurves::figures(double rho) const {
   return f;
 }
 
-void report(Run& run, const ValveCurves::Figures& f) {
+void report(Run& run, const ValveCurves::Figures& f, bool whole_beat) {
   run.metric("goa_rest", f.goa_rest, "cm^2"), run.metric("goa_max", f.goa_max, "cm^2");
+  run.metric("goa_end", f.goa_end, "cm^2");
   run.metric("t_open", f.t_open, "s"), run.metric("t_close", f.t_close, "s");
   run.metric("jet_peak", f.jet_peak, "cm/s");
   run.metric("pressure_drop_mean", f.drop_mean / mmHg, "mmHg");
@@ -68,6 +69,11 @@ void report(Run& run, const ValveCurves::Figures& f) {
   run.metric("forward_volume", f.forward, "cm^3"), run.metric("closing_volume", f.closing, "cm^3");
   run.metric("leak_volume", f.leak, "cm^3");
   run.metric("regurgitant_fraction", f.regurgitant_fraction());
+  if (!whole_beat) return;
+  const std::string source = "normal adults, Baumgartner et al., J. Am. Soc. Echocardiogr. 22 (2009) 1-23";
+  run.check_between("goa_max", f.goa_max, 3.0, 4.0, source + ": valve area 3 to 4 cm^2");
+  run.check_at_most("jet_peak", f.jet_peak, 250.0, source + ": no stenosis up to 2.5 m/s");
+  run.check_at_most("regurgitant_fraction", f.regurgitant_fraction(), 0.05, "goal of the case");
 }
 
 }  // namespace ifsi

@@ -16,7 +16,7 @@ namespace ifsi {
 /// between them. The attachment line of a leaflet is the section of the vessel with an inclined plane: it
 /// begins at z = 0 in the mid-leaflet plane (the nadir) and reaches z = commissure at the commissures. Above
 /// it, up to z = height, the wall bulges out by `lobe` radii in the middle of a sinus, by nothing at the
-/// commissures: the attachment lines lie on the straight vessel.
+/// commissures: the attachment lines lie on the straight vessel (eq. 40).
 struct AorticRoot {
   double radius = 1.4;      ///< of the straight vessel
   double height = 2.4;      ///< of the root, from the nadirs to the end of the sinuses

@@ -147,7 +147,6 @@ LeafletMesh<Element> leaflet_mesh(const AorticRoot& root, const Leaflet& leaflet
     const double a = x[0], b = x[1];
     const auto y = surface.at(a, b) + leaflet.thickness * x[2] * surface.normal(a, b);
     x = {cosine * y[0] - sine * y[1], sine * y[0] + cosine * y[1], y[2]};
-    if (half && a == 0.0) x[1] = 0.0;
   }
   return result;
 }

@@ -108,7 +108,7 @@ class ValveHistory {
     pictures_.write(problem_, s.t >= o_.time.end * (1.0 - 1e-10));
   }
   void report_all() const {
-    report(run_, curves_.figures(o_.rho_f));
+    report(run_, curves_.figures(o_.rho_f), o_.time.end >= 0.5);
     extremes_.report(run_);
     run_.metric("energy_lost", balances_.lost_part());
   }

@@ -46,7 +46,7 @@ class ValveCurves {
   void read(const std::string& file, double t_end);
 
   struct Figures {
-    double goa_rest = 0.0, goa_max = 0.0, t_open = 0.0, t_close = 0.0;
+    double goa_rest = 0.0, goa_max = 0.0, goa_end = 0.0, t_open = 0.0, t_close = 0.0;
     double jet_peak = 0.0, drop_mean = 0.0, drop_peak = 0.0, eoa = 0.0;
     double forward = 0.0, closing = 0.0, leak = 0.0;
     [[nodiscard]] double regurgitant_fraction() const {
@@ -62,7 +62,7 @@ class ValveCurves {
   std::vector<Sample> samples_;
 };
 
-/// Writes the figures to the summary.
-void report(Run& run, const ValveCurves::Figures& figures);
+/// Writes the figures to the summary; those of a whole beat are held to what is normal in man.
+void report(Run& run, const ValveCurves::Figures& figures, bool whole_beat);
 
 }  // namespace ifsi
