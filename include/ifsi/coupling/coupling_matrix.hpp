@@ -42,6 +42,9 @@ class CouplingMatrix {
     return true;
   }
 
+  /// Other cells from now on: the next update() makes the pattern anew.
+  void set_cells(SolidCells cells) { cells_ = std::move(cells), revision_ = -1; }
+
   /// The solid cells that reach an owned fluid node, ascending: those whose matrices this rank has to add.
   [[nodiscard]] const std::vector<int>& relevant_cells() const { return relevant_; }
   [[nodiscard]] const SolidCells& cells() const { return cells_; }

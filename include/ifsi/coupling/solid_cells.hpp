@@ -20,6 +20,11 @@ class SolidCells {
       offsets_.push_back(static_cast<int>(nodes_.size()));
     }
   }
+  /// Keeps the first n cells.
+  void truncate(int n) {
+    offsets_.resize(n + 1);
+    nodes_.resize(offsets_.back());
+  }
   [[nodiscard]] int size() const { return static_cast<int>(offsets_.size()) - 1; }
   [[nodiscard]] std::span<const int> operator[](int cell) const {
     return {nodes_.data() + offsets_[cell], nodes_.data() + offsets_[cell + 1]};

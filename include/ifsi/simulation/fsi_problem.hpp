@@ -30,7 +30,9 @@ struct FsiOptions {
   /// A step is rejected when a solid node ends further than this from where it was predicted, in spacings of
   /// the fluid's nodes: C, cut cells and s were taken at the prediction.
   double max_change = 1.0;
-  int patch_layers = 2;  ///< layers of fluid nodes around the cut cells that are solved for directly
+  double contact_range = 0.0;     ///< where surfaces begin to repel each other, in fluid spacings; 0: never
+  double contact_pressure = 0.0;  ///< of flat surfaces half of the range apart (eq. 33)
+  int patch_layers = 2;           ///< layers of fluid nodes around the cut cells that are solved for directly
   PatchedSolverOptions linear;
 
   void declare(Parameters& params) {
@@ -42,6 +44,11 @@ struct FsiOptions {
     params.add("coupling.s_max", s.s_max, "-", "scale s of tau_M around the solid", {1.0, 1e9});
     params.add("coupling.s_rings", s.rings, "-", "layers of nodes beyond the cut cells with s = s_max",
                {0, 100});
+    params.add("contact.range", contact_range, "-",
+               "distance in fluid spacings from which surfaces of solids repel (0: no contact)",
+               non_negative);
+    params.add("contact.pressure", contact_pressure, "force/area",
+               "pressure between flat surfaces half of the range apart: what they must hold", non_negative);
     params.add("coupling.patch_layers", patch_layers, "-", "layers around the cut cells solved for directly",
                {0, 20});
     params.add_choice("coupling.base", linear.base, {"auto", "direct", "gmres"},
@@ -78,6 +85,14 @@ class FsiProblem : public FlowProblem<Element, Model> {
     C_.locate(solids_.positions());
     if (!may_protrude) C_.require_all_found("solid nodes");
     n_held_ = C_.lost().size();
+    if (fsi_.contact_range > 0.0) set_contact();
+  }
+
+  /// A plane that the bodies may not pass. \throws Error (configuration) without contact.range.
+  void add_contact_plane(const ContactPlane<Flow::dim>& plane) {
+    if (!solids_.contact())
+      throw Error(ExitCode::configuration, "a contact plane needs contact.range > 0; it is 0");
+    solids_.add_plane(plane);
   }
 
   [[nodiscard]] const ImmersedSolids<Body>& solids() const { return solids_; }
@@ -230,6 +245,32 @@ class FsiProblem : public FlowProblem<Element, Model> {
            std::to_string(n_held_) + " that lie outside from the beginning";
   }
 
+  void set_contact() {
+    if (!(fsi_.contact_pressure > 0.0))
+      throw Error(ExitCode::configuration, "contact.pressure = " + std::to_string(fsi_.contact_pressure) +
+                                               ", expected the pressure that pushes surfaces together, > 0");
+    if (Body::Coordinates::axisymmetric)
+      throw Error(ExitCode::configuration, "contact.range = " + std::to_string(fsi_.contact_range) +
+                                               ", expected 0 for bodies of revolution: they have no contact");
+    solids_.set_contact(fsi_.contact_range * fluid_spacing(), fsi_.contact_pressure);
+  }
+  /// Distance of the fluid's nodes where the surfaces are, in the mean.
+  [[nodiscard]] double fluid_spacing() const {
+    double sum = 0.0;
+    int n = 0;
+    for (const auto& point : solids_.surface_points()) {
+      if (!C_.row(point.node).found()) continue;
+      double squares = 0.0;
+      for (int i = 0; i < Flow::dim; ++i) {
+        auto e = Point::zero();
+        e[i] = 1.0;
+        squares += std::pow(length_in_cells(C_.row(point.node), e), 2);
+      }
+      sum += std::sqrt(Flow::dim / squares), ++n;
+    }
+    return sum / std::max(n, 1);
+  }
+
   /// How far nodes ended from their predicted places; too far is no step.
   void check_change(StepReport& report, double dt) const {
     const auto from = solids_.predicted(dt), to = solids_.new_positions();
@@ -304,6 +345,10 @@ class FsiProblem : public FlowProblem<Element, Model> {
 
   void assemble_solids(bool tangent) {
     const bool exact = fsi_.treatment == "exact";
+    if (solids_.update_contact()) {
+      K_s_.set_cells(solids_.cells());
+      update_pattern();
+    }
     if (tangent) update_pattern(), K_s_.set_zero();
     R_s_.assign(solids_.n_nodes(), Point::zero());
     const DeformationReport report =

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ifsi/assembly/solid_body.hpp"
 #include "ifsi/coupling/solid_cells.hpp"
+#include "ifsi/coupling/surface_contact.hpp"
 #include "ifsi/time/generalized_alpha.hpp"
 
 namespace ifsi {
@@ -28,12 +32,14 @@ class ImmersedSolids {
       cells_.append(body.mesh().cells, first_node_.back());
       X_.insert(X_.end(), body.mesh().points.begin(), body.mesh().points.end());
     }
+    n_body_cells_ = cells_.size();
     for (auto* x : {&u_, &v_, &a_, &u_old_, &v_old_, &a_old_, &u_alpha_, &v_alpha_, &a_alpha_})
       x->assign(X_.size() * dim, 0.0);
   }
 
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
   [[nodiscard]] std::vector<Body>& bodies() { return bodies_; }
+  /// The cells of all bodies, then the contacts, which couple nodes as cells do.
   [[nodiscard]] const SolidCells& cells() const { return cells_; }
   [[nodiscard]] int n_nodes() const { return static_cast<int>(X_.size()); }
   [[nodiscard]] int first_node(int body) const { return first_node_[body]; }
@@ -88,6 +94,35 @@ class ImmersedSolids {
       a_alpha_[k] = a_old_[k] + levels_.alpha_m * (a_[k] - a_old_[k]);
     }
   }
+  /// Makes the surfaces repel each other from `range` on, see SurfaceContact.
+  /// \throws Error (configuration) when a range is less than the size of the faces of a surface.
+  void set_contact(double range, double pressure) {
+    check_surfaces(range);
+    contact_.emplace(surface_points(), range, pressure);
+  }
+  [[nodiscard]] const std::optional<SurfaceContact<dim>>& contact() const { return contact_; }
+  void add_plane(const ContactPlane<dim>& plane) { contact_->add_plane(plane); }
+  /// Finds the contacts for the level where the equations hold; says whether cells() has changed.
+  bool update_contact() {
+    if (!contact_ || !contact_->update(points(u_alpha_, X_))) return false;
+    cells_.truncate(n_body_cells_);
+    cells_.append(contact_->pairs());
+    cells_.append(contact_->singles());
+    return true;
+  }
+  /// Nodes on the surfaces of all bodies.
+  [[nodiscard]] std::vector<SurfacePoint<dim>> surface_points() const {
+    std::vector<SurfacePoint<dim>> surface;
+    std::vector<double> area(X_.size(), 0.0);
+    for_each_face([&](int, std::span<const int> nodes, std::span<const double> areas) {
+      for (std::size_t a = 0; a < nodes.size(); ++a) area[nodes[a]] += areas[a];
+    });
+    for (int b = 0; b < static_cast<int>(bodies_.size()); ++b)
+      for (int a = first_node_[b]; a < first_node_[b] + bodies_[b].n_nodes(); ++a)
+        if (area[a] > 0.0) surface.push_back({a, b, area[a], X_[a]});
+    return surface;
+  }
+
   [[nodiscard]] double alpha_f() const { return levels_.alpha_f; }
   void end_step() { u_old_ = u_, v_old_ = v_, a_old_ = a_; }
 
@@ -123,6 +158,7 @@ class ImmersedSolids {
       if (report.cell >= 0) worst.merge(report.min_det_F, first_cell_[b] + report.cell);
       add_loads(static_cast<int>(b), list, offset, R, tangent, matrix);
     }
+    if (contact_) add_contact(cells, R, tangent, matrix);
     return worst;
   }
 
@@ -207,6 +243,53 @@ class ImmersedSolids {
         });
   }
 
+  /// Those of the listed cells that are contacts (eq. 32, eq. 34).
+  template <class MatrixSink>
+  void add_contact(std::span<const int> cells, std::span<Point> R, bool tangent, MatrixSink&& matrix) const {
+    const std::vector<Point> x = points(u_alpha_, X_);
+    const auto first = std::lower_bound(cells.begin(), cells.end(), n_body_cells_) - cells.begin();
+    for (std::size_t i = first; i < cells.size(); ++i) {
+      auto term = contact_->term(cells[i] - n_body_cells_, x);
+      const auto nodes = cells_[cells[i]];
+      for (std::size_t a = 0; a < nodes.size(); ++a) R[nodes[a]] += term.R[a];
+      if (!tangent || term.energy == 0.0) continue;  // beyond the range
+      for (auto& K : term.K) K = slopes().u * K;
+      matrix(static_cast<int>(i), term.K.data());
+    }
+  }
+
+  /// Calls visit(body, nodes, area of each) for the faces of all surfaces.
+  template <class Visit>
+  void for_each_face(Visit&& visit) const {
+    auto unit = Point::zero();
+    unit[0] = 1.0;
+    for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
+      std::vector<int> faces(bodies_[b].mesh().boundary_faces.size());
+      std::iota(faces.begin(), faces.end(), 0);
+      bodies_[b].add_traction(unit, faces, [&](std::span<const int> of_body, std::span<const double> R) {
+        std::vector<int> nodes(of_body.begin(), of_body.end());
+        std::vector<double> areas;
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+          nodes[a] += first_node_[b], areas.push_back(-R[a * dim]);
+        visit(b, std::span<const int>(nodes), std::span<const double>(areas));
+      });
+    }
+  }
+
+  /// Points further apart than the range would let each other through.
+  void check_surfaces(double range) const {
+    for_each_face([&](int body, std::span<const int> nodes, std::span<const double>) {
+      for (int a : nodes)
+        for (int b : nodes)
+          if (const double d = std::sqrt(dot(X_[a] - X_[b], X_[a] - X_[b])); d > range)
+            throw Error(ExitCode::configuration,
+                        "contact range of " + std::to_string(range) +
+                            " length: nodes of a surface face of solid '" + bodies_[body].name() + "' are " +
+                            std::to_string(d) +
+                            " apart and would let other surfaces through; expected at most the range");
+    });
+  }
+
   /// The part of a sorted list of cells that belongs to a body, in the body's numbers, and where it begins.
   [[nodiscard]] std::pair<std::vector<int>, std::size_t> cells_of(int body,
                                                                   std::span<const int> cells) const {
@@ -220,6 +303,8 @@ class ImmersedSolids {
   std::vector<Body> bodies_;
   std::vector<int> first_node_, first_cell_;
   SolidCells cells_;
+  int n_body_cells_ = 0;
+  std::optional<SurfaceContact<dim>> contact_;
   std::vector<Point> X_;
   GeneralizedAlpha levels_, rates_;
   double dt_ = 1.0;

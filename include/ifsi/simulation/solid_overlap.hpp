@@ -1,12 +1,15 @@
 #pragma once
 /// \file
-/// Bodies must be apart when a run begins.
+/// Bodies must be apart when a run begins; how near they come later.
 
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "ifsi/core/error.hpp"
 #include "ifsi/coupling/point_locator.hpp"
+#include "ifsi/coupling/point_tree.hpp"
 #include "ifsi/mesh/distribute.hpp"
 
 namespace ifsi {
@@ -59,6 +62,35 @@ void refuse_overlap(const std::vector<Body>& bodies) {
                       "); expected bodies that are apart, or touch, when a run begins");
     }
   }
+}
+
+/// How near two bodies of a scene are to each other.
+struct SolidNearness {
+  double distance = std::numeric_limits<double>::infinity();  ///< least, of nodes of two bodies
+  int inside = 0;                                             ///< nodes that are inside another body
+};
+/// \param x positions of all nodes, body after body.
+template <class Body>
+[[nodiscard]] SolidNearness nearness(const std::vector<Body>& bodies,
+                                     const std::vector<Vec<double, Body::dim>>& x) {
+  SolidNearness near;
+  std::size_t begin = 0;
+  for (const Body& body : bodies) {
+    const std::size_t end = begin + body.n_nodes();
+    auto moved = body.mesh();
+    std::copy(x.begin() + begin, x.begin() + end, moved.points.begin());
+    const PointTree<Body::dim> tree(moved.points);
+    const auto mesh = distribute(moved, Communicator(MPI_COMM_SELF));
+    const PointLocator<typename Body::Element> locator(mesh);
+    for (std::size_t a = 0; a < x.size(); ++a) {
+      if (a >= begin && a < end) continue;
+      const auto d = x[a] - moved.points[tree.nearest(x[a])];
+      near.distance = std::min(near.distance, std::sqrt(dot(d, d)));
+      near.inside += detail::holds_inside(locator, x[a]);
+    }
+    begin = end;
+  }
+  return near;
 }
 
 }  // namespace ifsi
