@@ -1,5 +1,6 @@
 #include "ifsi/simulation/valve_figures.hpp"
 
+#include "ifsi/core/error.hpp"
 #include "ifsi/simulation/profiles.hpp"
 
 namespace ifsi {
@@ -8,16 +9,27 @@ namespace {
 constexpr double mmHg = 1333.22;  // dyn/cm^2
 }
 
+std::vector<Column> ValveCurves::columns() {
+  return {{"t", "s"},
+          {"flow", "cm^3/s"},
+          {"goa", "cm^2"},
+          {"v_max", "cm/s"},
+          {"pressure_drop", "dyn/cm^2"},
+          {"s1_p99", "dyn/cm^2"},
+          {"det_f_min", "-"},
+          {"volume_change", "-"}};
+}
+
 void ValveCurves::read(const std::string& file, double t_end) {
-  const auto column = [&](const std::string& name) {
-    const auto curve = read_profile(file, name);
-    if (!curve) throw Error(ExitCode::file, file + ": no column \"" + name + "\"");
-    return *curve;
-  };
-  const auto flow = column("flow [cm^3/s]"), area = column("goa [cm^2]"), speed = column("v_max [cm/s]"),
-             drop = column("pressure_drop [dyn/cm^2]");
-  for (std::size_t k = 0; k < flow.size() && flow[k].first <= t_end * (1.0 + 1e-12); ++k)
-    add({flow[k].first, flow[k].second, area[k].second, speed[k].second, drop[k].second});
+  std::vector<std::vector<double>> rows;
+  for (const Column& column : columns()) {
+    const auto curve = read_profile(file, column.name + " [" + column.unit + "]");
+    if (!curve) throw Error(ExitCode::file, file + ": no column \"" + column.name + "\"");
+    rows.resize(curve->size());
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].push_back((*curve)[k].second);
+  }
+  for (const auto& x : rows)
+    if (x[0] <= t_end * (1.0 + 1e-12)) add({x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]});
 }
 
 /// First and last crossing of the middle between the area at rest and the largest one.
@@ -38,7 +50,9 @@ ValveCurves::Figures ValveCurves::figures(double rho) const {
   f.goa_rest = samples_.front().area, f.goa_end = samples_.back().area;
   for (const Sample& s : samples_) {
     f.goa_max = std::max(f.goa_max, s.area), f.jet_peak = std::max(f.jet_peak, s.speed);
-    f.drop_peak = std::max(f.drop_peak, s.pressure_drop);
+    f.drop_peak = std::max(f.drop_peak, s.pressure_drop), f.s1_p99 = std::max(f.s1_p99, s.stress);
+    f.det_F_min = std::min(f.det_F_min, s.det_F);
+    f.volume_change = std::max(f.volume_change, std::abs(s.volume_change));
   }
   find_opening(f);
   double time = 0.0, drop = 0.0, square = 0.0;  // while blood goes forward against a positive difference
@@ -69,6 +83,8 @@ void report(Run& run, const ValveCurves::Figures& f, bool whole_beat) {
   run.metric("forward_volume", f.forward, "cm^3"), run.metric("closing_volume", f.closing, "cm^3");
   run.metric("leak_volume", f.leak, "cm^3");
   run.metric("regurgitant_fraction", f.regurgitant_fraction());
+  run.metric("s1_p99", f.s1_p99, "dyn/cm^2"), run.metric("det_f_min", f.det_F_min);
+  run.metric("volume_change_max", f.volume_change);
   if (!whole_beat) return;
   const std::string source = "normal adults, Baumgartner et al., J. Am. Soc. Echocardiogr. 22 (2009) 1-23";
   run.check_between("goa_max", f.goa_max, 3.0, 4.0, source + ": valve area 3 to 4 cm^2");

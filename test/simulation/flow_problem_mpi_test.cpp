@@ -246,133 +246,128 @@ TEST(FlowProblem, SlipNeedsAPlane) {
   }
 }
 
-// A body force drives Poiseuille flow through a periodic channel, and the walls hold it all (eq. 12).
+/// Periodic in x, driven by a body force in the place of -dp/dx; mu dv/dy = 0.1 at the walls.
+template <class Element>
+FlowProblem<Element> periodic_poiseuille(const Mesh<Element>& mesh) {
+  FlowBoundary<2> boundary;
+  boundary.no_slip("bottom"), boundary.no_slip("top");
+  FlowOptions options = tight();
+  options.gravity = {0.2, 0.0, 0.0};
+  FlowProblem<Element> flow(mesh, boundary, 1.0, Newtonian{0.1}, options);
+  EXPECT_TRUE(flow.solve_steady().converged);
+  return flow;
+}
+
+// The walls hold the whole body force (eq. 12).
 TEST(FlowProblem, ConsistentForceBalancesTheBodyForce) {
   const auto mesh = distribute(box<Quad2>({0.0, 0.0}, {2.0, 1.0}, {6, 4}, {{true, false}}), Communicator());
+  const auto flow = periodic_poiseuille(mesh);
+  const auto u = flow.solution();
+  const auto x = flow.mesh().node_coordinates();
+  for (std::size_t a = 0; a < x.size(); ++a) EXPECT_NEAR(u[a * 3], x[a][1] * (1.0 - x[a][1]), 1e-8);
+  EXPECT_NEAR(flow.force("top")[0], 0.2, 1e-8);
+  EXPECT_NEAR(flow.force("bottom")[0], 0.2, 1e-8);
+}
 
-  /// Periodic in x, driven by a body force in the place of -dp/dx; mu dv/dy = 0.1 at the walls.
-  template <class Element>
-  FlowProblem<Element> periodic_poiseuille(const Mesh<Element>& mesh) {
-    FlowBoundary<2> boundary;
-    boundary.no_slip("bottom"), boundary.no_slip("top");
-    FlowOptions options = tight();
-    options.gravity = {0.2, 0.0, 0.0};
-    FlowProblem<Element> flow(mesh, boundary, 1.0, Newtonian{0.1}, options);
-    EXPECT_TRUE(flow.solve_steady().converged);
-    return flow;
+/// Integral of -sigma n over a boundary by the velocity gradient of its cells.
+template <class Element>
+Vec<double, 2> surface_stress(const FlowProblem<Element>& flow, const std::string& boundary, double mu) {
+  const auto& mesh = flow.mesh();
+  const auto u = flow.solution();
+  const PointLocator<Element> locator(mesh);
+  auto F = Vec<double, 2>::zero();
+  for_each_face_point<Cartesian>(mesh, mesh.boundary(boundary), true, [&](const FacePoint<2>& q) {
+    const auto X = mesh.cell_coordinates(q.cell);
+    const auto xi = locator.find(q.x).xi;
+    std::array<Vec<double, 2>, Element::n_nodes> dN;
+    Element::gradients(xi, dN);
+    const auto grad_N = physical_gradients(dN, inverse(jacobian(dN, X)));
+    auto sigma = Mat<double, 2>::zero();
+    for (std::size_t a = 0; a < q.nodes.size(); ++a)
+      for (int i = 0; i < 2; ++i) sigma(i, i) -= q.N[a] * u[q.nodes[a] * 3 + 2];
+    for (int a = 0; a < Element::n_nodes; ++a)
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) {
+          const double dv_ij = u[mesh.cells[q.cell][a] * 3 + i] * grad_N[a][j];
+          sigma(i, j) += mu * dv_ij, sigma(j, i) += mu * dv_ij;
+        }
+    F -= sigma * q.n_dA;
+  });
+  mesh.comm.sum_in_place(F.data, 2);
+  return F;
+}
+
+// (eq. 31) on cells that hold Poiseuille flow exactly: shear 0.1, and the pressure.
+TEST(FlowProblem, WallTractionOfPoiseuilleFlow) {
+  const auto mesh = distribute(box<Quad2>({0.0, 0.0}, {2.0, 1.0}, {8, 3}), Communicator());
+  const auto flow = poiseuille(mesh, "direct");
+  const auto wall = flow.wall_traction({"bottom"});
+  const auto x = mesh.node_coordinates();
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    const bool is_end = x[node][0] < 1e-9 || x[node][0] > 2.0 - 1e-9;
+    if (is_end) continue;  // there the boundaries on both sides hold the node
+    const bool on_wall = x[node][1] == 0.0;
+    EXPECT_NEAR(wall.shear[node][0], on_wall ? 0.1 : 0.0, 1e-9);
+    EXPECT_NEAR(wall.shear[node][1], 0.0, 1e-12);
+    EXPECT_NEAR(wall.traction[node][1], on_wall ? -0.2 * (2.0 - x[node][0]) : 0.0, 1e-9);
   }
+}
 
-  // The walls hold the whole body force (eq. 12).
-  TEST(FlowProblem, ConsistentForceBalancesTheBodyForce) {
-    const auto mesh = distribute(box<Quad2>({0.0, 0.0}, {2.0, 1.0}, {6, 4}, {{true, false}}), Communicator());
+// Bilinear cells: the consistent shear stress is exact where the stress of the cells at the wall is of
+// first order; the integral of that tends to the consistent force.
+TEST(FlowProblem, WallShearStressOfBilinearCells) {
+  std::vector<double> difference;
+  for (int n : {8, 16}) {
+    const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {2.0, 1.0}, {4, n}, {{true, false}}), Communicator());
     const auto flow = periodic_poiseuille(mesh);
-    const auto u = flow.solution();
-    const auto x = flow.mesh().node_coordinates();
-    for (std::size_t a = 0; a < x.size(); ++a) EXPECT_NEAR(u[a * 3], x[a][1] * (1.0 - x[a][1]), 1e-8);
-    EXPECT_NEAR(flow.force("top")[0], 0.2, 1e-8);
-    EXPECT_NEAR(flow.force("bottom")[0], 0.2, 1e-8);
+    const auto shear = flow.wall_traction({"top", "bottom"}).shear;
+    for (const char* wall : {"top", "bottom"})
+      for (int node : mesh.nodes_on(wall)) EXPECT_NEAR(shear[node][0], 0.1, 1e-9);
+    difference.push_back((flow.force("bottom") - surface_stress(flow, "bottom", 0.1))[0]);
   }
+  EXPECT_NEAR(difference[0], 0.2 / 8, 1e-9);
+  EXPECT_NEAR(difference[1], 0.2 / 16, 1e-9);
+}
 
-  /// Integral of -sigma n over a boundary by the velocity gradient of its cells.
-  template <class Element>
-  Vec<double, 2> surface_stress(const FlowProblem<Element>& flow, const std::string& boundary, double mu) {
-    const auto& mesh = flow.mesh();
-    const auto u = flow.solution();
-    const PointLocator<Element> locator(mesh);
-    auto F = Vec<double, 2>::zero();
-    for_each_face_point<Cartesian>(mesh, mesh.boundary(boundary), true, [&](const FacePoint<2>& q) {
-      const auto X = mesh.cell_coordinates(q.cell);
-      const auto xi = locator.find(q.x).xi;
-      std::array<Vec<double, 2>, Element::n_nodes> dN;
-      Element::gradients(xi, dN);
-      const auto grad_N = physical_gradients(dN, inverse(jacobian(dN, X)));
-      auto sigma = Mat<double, 2>::zero();
-      for (std::size_t a = 0; a < q.nodes.size(); ++a)
-        for (int i = 0; i < 2; ++i) sigma(i, i) -= q.N[a] * u[q.nodes[a] * 3 + 2];
-      for (int a = 0; a < Element::n_nodes; ++a)
-        for (int i = 0; i < 2; ++i)
-          for (int j = 0; j < 2; ++j) {
-            const double dv_ij = u[mesh.cells[q.cell][a] * 3 + i] * grad_N[a][j];
-            sigma(i, j) += mu * dv_ij, sigma(j, i) += mu * dv_ij;
-          }
-      F -= sigma * q.n_dA;
-    });
-    mesh.comm.sum_in_place(F.data, 2);
-    return F;
-  }
-
-  // (eq. 31) on cells that hold Poiseuille flow exactly: shear 0.1, and the pressure.
-  TEST(FlowProblem, WallTractionOfPoiseuilleFlow) {
-    const auto mesh = distribute(box<Quad2>({0.0, 0.0}, {2.0, 1.0}, {8, 3}), Communicator());
-    const auto flow = poiseuille(mesh, "direct");
-    const auto wall = flow.wall_traction({"bottom"});
-    const auto x = mesh.node_coordinates();
-    for (int node = 0; node < mesh.n_nodes(); ++node) {
-      const bool is_end = x[node][0] < 1e-9 || x[node][0] > 2.0 - 1e-9;
-      if (is_end) continue;  // there the boundaries on both sides hold the node
-      const bool on_wall = x[node][1] == 0.0;
-      EXPECT_NEAR(wall.shear[node][0], on_wall ? 0.1 : 0.0, 1e-9);
-      EXPECT_NEAR(wall.shear[node][1], 0.0, 1e-12);
-      EXPECT_NEAR(wall.traction[node][1], on_wall ? -0.2 * (2.0 - x[node][0]) : 0.0, 1e-9);
-    }
-  }
-
-  // Bilinear cells: the consistent shear stress is exact where the stress of the cells at the wall is of
-  // first order; the integral of that tends to the consistent force.
-  TEST(FlowProblem, WallShearStressOfBilinearCells) {
-    std::vector<double> difference;
-    for (int n : {8, 16}) {
-      const auto mesh =
-          distribute(box<Quad1>({0.0, 0.0}, {2.0, 1.0}, {4, n}, {{true, false}}), Communicator());
-      const auto flow = periodic_poiseuille(mesh);
-      const auto shear = flow.wall_traction({"top", "bottom"}).shear;
-      for (const char* wall : {"top", "bottom"})
-        for (int node : mesh.nodes_on(wall)) EXPECT_NEAR(shear[node][0], 0.1, 1e-9);
-      difference.push_back((flow.force("bottom") - surface_stress(flow, "bottom", 0.1))[0]);
-    }
-    EXPECT_NEAR(difference[0], 0.2 / 8, 1e-9);
-    EXPECT_NEAR(difference[1], 0.2 / 16, 1e-9);
-  }
-
-  // A pipe of mean velocity U: 4 mu U / R, to second order.
-  TEST(FlowProblem, WallShearStressInAPipe) {
-    constexpr double U = 0.7, R = 0.5, mu = 0.2;
-    std::vector<double> error;
-    for (int n : {8, 16}) {
-      const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {R, 2.0}, {n, n}), Communicator());
-      FlowBoundary<2> boundary;
-      boundary.velocity("bottom", [](const auto& x, double) {
-        return Vec<double, 2>{0.0, 2.0 * U * (1.0 - x[0] * x[0] / (R * R))};
-      });
-      boundary.traction_free("top"), boundary.slip("left"), boundary.no_slip("right");
-      FlowProblem<Quad1, AxisymmetricFlow> flow(mesh, boundary, 1.0, Newtonian{mu}, tight());
-      ASSERT_TRUE(flow.solve_steady().converged);
-      const auto shear = flow.wall_traction({"right"}).shear;
-      const auto x = mesh.node_coordinates();
-      double largest = 0.0;
-      for (int node : mesh.nodes_on("right"))
-        if (std::abs(x[node][1] - 1.0) < 0.3)
-          largest = std::max(largest, std::abs(shear[node][1] / (4.0 * mu * U / R) - 1.0));
-      error.push_back(mesh.comm.max(largest));
-    }
-    EXPECT_LT(error[1], 1.5e-3);
-    EXPECT_LT(error[1], 0.3 * error[0]) << error[0];
-  }
-
-  TEST(FlowProblem, EveryBoundaryNeedsACondition) {
-    const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {1.0, 1.0}, {4, 4}), Communicator());
+// A pipe of mean velocity U: 4 mu U / R, to second order.
+TEST(FlowProblem, WallShearStressInAPipe) {
+  constexpr double U = 0.7, R = 0.5, mu = 0.2;
+  std::vector<double> error;
+  for (int n : {8, 16}) {
+    const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {R, 2.0}, {n, n}), Communicator());
     FlowBoundary<2> boundary;
-    boundary.no_slip("left"), boundary.no_slip("right"), boundary.no_slip("top");
-    try {
-      FlowProblem<Quad1>(mesh, boundary, 1.0, Newtonian{}, {});
-      FAIL() << "no error";
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), ExitCode::configuration);
-      EXPECT_NE(std::string(e.what()).find("bottom"), std::string::npos);
-    }
-    boundary.no_slip("botom");
-    EXPECT_THROW(FlowProblem<Quad1>(mesh, boundary, 1.0, Newtonian{}, {}), Error);
+    boundary.velocity("bottom", [](const auto& x, double) {
+      return Vec<double, 2>{0.0, 2.0 * U * (1.0 - x[0] * x[0] / (R * R))};
+    });
+    boundary.traction_free("top"), boundary.slip("left"), boundary.no_slip("right");
+    FlowProblem<Quad1, AxisymmetricFlow> flow(mesh, boundary, 1.0, Newtonian{mu}, tight());
+    ASSERT_TRUE(flow.solve_steady().converged);
+    const auto shear = flow.wall_traction({"right"}).shear;
+    const auto x = mesh.node_coordinates();
+    double largest = 0.0;
+    for (int node : mesh.nodes_on("right"))
+      if (std::abs(x[node][1] - 1.0) < 0.3)
+        largest = std::max(largest, std::abs(shear[node][1] / (4.0 * mu * U / R) - 1.0));
+    error.push_back(mesh.comm.max(largest));
   }
+  EXPECT_LT(error[1], 1.5e-3);
+  EXPECT_LT(error[1], 0.3 * error[0]) << error[0];
+}
+
+TEST(FlowProblem, EveryBoundaryNeedsACondition) {
+  const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {1.0, 1.0}, {4, 4}), Communicator());
+  FlowBoundary<2> boundary;
+  boundary.no_slip("left"), boundary.no_slip("right"), boundary.no_slip("top");
+  try {
+    FlowProblem<Quad1>(mesh, boundary, 1.0, Newtonian{}, {});
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::configuration);
+    EXPECT_NE(std::string(e.what()).find("bottom"), std::string::npos);
+  }
+  boundary.no_slip("botom");
+  EXPECT_THROW(FlowProblem<Quad1>(mesh, boundary, 1.0, Newtonian{}, {}), Error);
+}
 
 }  // namespace
 }  // namespace ifsi

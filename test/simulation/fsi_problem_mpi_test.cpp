@@ -156,6 +156,21 @@ Body bar(const std::string& name, const Vec<double, 2>& lower, const Vec<double,
 
 // Two leaflets opposite each other in a symmetric flow move as mirror images; each has its own law and
 // numbers.
+// A node that left would be held outside for good: the step is cut instead.
+TEST(FsiProblem, AStepThatTakesABodyOutIsRefused) {
+  const auto mesh = channel_mesh(Communicator());
+  std::vector<Body> bodies;
+  bodies.emplace_back("drop", box<Quad1>({1.9, 0.4}, {1.98, 0.6}, {1, 3}),
+                      NeoHookean(Lame::from_young(2e3, 0.4)), leaflet()[0].parameters);
+  Probed problem(mesh, flow_options(), fsi_options(0.0), std::move(bodies));
+  problem.start(0.0, [](const auto&) { return Vec<double, 2>{1.0, 0.0}; });
+  const StepReport refused = problem.step(0.05);
+  EXPECT_FALSE(refused.converged);
+  EXPECT_NE(refused.failure.find("2 solid nodes are predicted to leave"), std::string::npos)
+      << refused.failure;
+  EXPECT_EQ(problem.solids().displacement(0)[0], 0.0);
+}
+
 TEST(FsiProblem, TwoBodiesMoveAsMirrorImages) {
   const auto mesh = channel_mesh(Communicator());
   std::vector<Body> pair;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/scratch_folder.hpp"
+
 namespace ifsi {
 namespace {
 
@@ -41,7 +43,8 @@ TEST(ValveCurves, FiguresOfABeatInClosedForm) {
   for (int k = 0; k <= n; ++k) {
     const double t = static_cast<double>(k) / n, s = std::sin(std::numbers::pi * t / 0.5);
     const double flow = t < 0.5 ? 100.0 * s : t < 0.6 ? -20.0 : t < 0.8 ? -1.0 : 0.0;
-    curves.add({t, flow, t < 0.5 ? 1.0 + 2.0 * s : 1.0, 50.0 * std::abs(s), t < 0.5 ? 1000.0 : -5.0});
+    curves.add({t, flow, t < 0.5 ? 1.0 + 2.0 * s : 1.0, 50.0 * std::abs(s), t < 0.5 ? 1000.0 : -5.0, 1e5 * t,
+                1.0 - 0.1 * s, -0.02 * t});
   }
   const auto f = curves.figures(1.1);
   EXPECT_EQ(f.goa_rest, 1.0);
@@ -56,6 +59,30 @@ TEST(ValveCurves, FiguresOfABeatInClosedForm) {
   EXPECT_EQ(f.closing, 0.0);  // the area fell before the flow turned
   EXPECT_NEAR(f.leak, 2.2, 1e-2);
   EXPECT_NEAR(f.regurgitant_fraction(), 2.2 / 31.83, 1e-3);
+  EXPECT_NEAR(f.s1_p99, 1e5, 1e-6);
+  EXPECT_NEAR(f.det_F_min, 0.9, 1e-6);
+  EXPECT_NEAR(f.volume_change, 0.02, 1e-12);
+}
+
+TEST(ValveCurves, AreReadBackFromTheirTable) {
+  const test::ScratchFolder folder;
+  ValveCurves written, read;
+  {
+    CsvFile table(folder.file("history.csv"), ValveCurves::columns());
+    for (int k = 0; k < 9; ++k) {
+      const ValveCurves::Sample s{0.1 * k, 3.0 * k,  1.0 + k,        7.0 * k,
+                                  9.0 * k, 11.0 * k, 1.0 - 0.01 * k, 0.001 * k};
+      if (k < 6) written.add(s);
+      table.row(ValveCurves::row(s));
+    }
+  }
+  read.read(folder.file("history.csv"), 0.5);
+  const auto a = written.figures(1.0), b = read.figures(1.0);
+  EXPECT_EQ(a.goa_max, b.goa_max);
+  EXPECT_EQ(a.forward, b.forward);
+  EXPECT_EQ(a.s1_p99, b.s1_p99);
+  EXPECT_EQ(a.det_F_min, b.det_F_min);
+  EXPECT_EQ(a.volume_change, b.volume_change);
 }
 
 }  // namespace

@@ -71,11 +71,9 @@ class ValveHistory {
         annulus_(problem.mesh(), 2, -0.05),
         balances_(problem),
         pictures_(run, o.picture_every, {"wall"}) {
-    std::vector<Column> columns = {{"t", "s"},         {"dt", "s"},
-                                   {"flow", "cm^3/s"}, {"goa", "cm^2"},
-                                   {"v_max", "cm/s"},  {"pressure_drop", "dyn/cm^2"},
-                                   {"det_f_min", "-"}, {"elastic_energy", "erg"},
-                                   {"lost_nodes", "-"}};
+    std::vector<Column> columns = ValveCurves::columns();
+    for (const Column& c : {Column{"dt", "s"}, {"elastic_energy", "erg"}, {"lost_nodes", "-"}})
+      columns.push_back(c);
     for (const Column& c : Balances<Problem>::columns()) columns.push_back(c);
     if (run.restarted()) {
       pictures_.resume(problem.time());
@@ -89,29 +87,24 @@ class ValveHistory {
   void observe(double dt) {
     const auto u = problem_.solution();
     const double copies = o_.copies();
-    const ValveCurves::Sample s{problem_.time(), copies * annulus_.integral(u, Problem::B, 2), orifice(),
+    const auto totals = problem_.solids().totals();
+    const ValveCurves::Sample s{problem_.time(),
+                                copies * annulus_.integral(u, Problem::B, 2),
+                                orifice(),
                                 largest_speed(problem_),
-                                before_.mean(u, Problem::B, 3) - behind_.mean(u, Problem::B, 3)};
+                                before_.mean(u, Problem::B, 3) - behind_.mean(u, Problem::B, 3),
+                                volume_quantile(problem_.solids().principal_samples().stress, 0.99),
+                                totals.deformation.min_det_F,
+                                totals.volume / totals.reference_volume - 1.0};
     curves_.add(s);
-    const auto totals = extremes_.observe(problem_);
-    std::vector<double> row = {s.t,
-                               dt,
-                               s.flow,
-                               s.area,
-                               s.speed,
-                               s.pressure_drop,
-                               totals.deformation.min_det_F,
-                               copies * totals.elastic_energy,
-                               static_cast<double>(problem_.interpolation().lost().size())};
+    std::vector<double> row = ValveCurves::row(s);
+    row.insert(row.end(), {dt, copies * totals.elastic_energy,
+                           static_cast<double>(problem_.interpolation().lost().size())});
     for (double x : balances_.observe(dt)) row.push_back(x);
     csv_.row(row);
     pictures_.write(problem_, s.t >= o_.time.end * (1.0 - 1e-10));
   }
-  void report_all() const {
-    report(run_, curves_.figures(o_.rho_f), o_.time.end >= 0.5);
-    extremes_.report(run_);
-    run_.metric("energy_lost", balances_.lost_part());
-  }
+  void report_all() const { report(run_, curves_.figures(o_.rho_f), o_.time.end >= 0.5); }
 
  private:
   [[nodiscard]] double orifice() const {
@@ -132,7 +125,6 @@ class ValveHistory {
   std::vector<std::vector<int>> edges_;
   Section<Tet1> before_, behind_, annulus_;
   ValveCurves curves_;
-  FsiExtremes extremes_;
   Balances<Problem> balances_;
   FsiPictures pictures_;
   CsvFile csv_;

@@ -40,8 +40,14 @@ class ValveCurves {
  public:
   struct Sample {
     double t, flow, area, speed, pressure_drop;  ///< s, cm^3/s, cm^2, cm/s, dyn/cm^2
+    double stress, det_F, volume_change;         ///< of the leaflets: s1_p99 (eq. 30), the smallest, relative
   };
   void add(const Sample& sample) { samples_.push_back(sample); }
+  /// Columns of history.csv that hold the samples, and a sample as a row of them.
+  [[nodiscard]] static std::vector<Column> columns();
+  [[nodiscard]] static std::vector<double> row(const Sample& s) {
+    return {s.t, s.flow, s.area, s.speed, s.pressure_drop, s.stress, s.det_F, s.volume_change};
+  }
   /// Reads back what an interrupted run has written until t_end. \param file history.csv
   void read(const std::string& file, double t_end);
 
@@ -49,6 +55,7 @@ class ValveCurves {
     double goa_rest = 0.0, goa_max = 0.0, goa_end = 0.0, t_open = 0.0, t_close = 0.0;
     double jet_peak = 0.0, drop_mean = 0.0, drop_peak = 0.0, eoa = 0.0;
     double forward = 0.0, closing = 0.0, leak = 0.0;
+    double s1_p99 = 0.0, det_F_min = 1.0, volume_change = 0.0;
     [[nodiscard]] double regurgitant_fraction() const {
       return forward > 0.0 ? (closing + leak) / forward : 0.0;
     }
