@@ -99,7 +99,9 @@ struct Step {
     system.constraints().eliminate(K);
     system.constraints().project(mesh.n_owned_nodes(), R);
   }
-  [[nodiscard]] FlowFields fields() const { return {.u = u, .u_dot = rate, .f = {}, .s = {}, .k_p = {}}; }
+  [[nodiscard]] FlowFields fields() const {
+    return {.u = u, .u_dot = rate, .f = {}, .s = {}, .k_p = {}, .fraction = {}};
+  }
 
   FlowSystem<Element> system;
   FluidParameters<Newtonian> fluid;

@@ -2,6 +2,7 @@
 """Checks on the sources that no compiler makes. Prints `file:line: what is wrong`, exits 1 if anything is.
 
 layers      an include goes downwards only, and no include cycle exists
+standard    a header, or one of ours that it includes, includes what it takes from the standard library
 libraries   hypre, METIS, SuiteSparse, fmt, toml++, CLI11 and zlib stay out of the public headers
 equations   every `(eq. N)` cited in a source or document is defined, once, in docs/equations.md
 functions   none over 80 lines, and half of them at most 10; no driver over 80 lines
@@ -33,6 +34,21 @@ LAYERS = {
 HIDDEN_LIBRARIES = re.compile(
     r"(HYPRE|_hypre|metis|umfpack|cholmod|klu|amd|SuiteSparse|suitesparse/|hypre/|fmt/|toml\+\+|CLI/|zlib)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
+# What headers may take from the standard library, where precompiled headers hide from the compiler what is missing.
+STANDARD = {
+    "algorithm": "all_of any_of clamp copy copy_n count erase_if fill fill_n find lower_bound max min min_element "
+                 "next_permutation none_of nth_element sort unique upper_bound",
+    "array": "array", "chrono": "chrono", "concepts": "convertible_to same_as", "cstdio": "snprintf",
+    "cmath": "abs asin atan atan2 cbrt ceil copysign cos exp floor ilogb isfinite llround log lround pow remainder sin "
+             "sqrt tan",
+    "cstdint": "int64_t uint16_t uint32_t uint64_t uint8_t", "cstring": "memcpy", "ctime": "clock clock_t",
+    "functional": "function greater", "initializer_list": "initializer_list", "limits": "numeric_limits", "map": "map",
+    "memory": "make_shared make_unique shared_ptr unique_ptr", "numbers": "numbers", "numeric": "iota partial_sum",
+    "optional": "optional", "span": "span", "stdexcept": "logic_error runtime_error", "string": "string to_string",
+    "string_view": "string_view", "tuple": "tie tuple", "type_traits": "conditional_t is_same_v "
+    "is_trivially_copyable_v", "unordered_map": "unordered_map unordered_multimap", "utility": "exchange index_sequence "
+    "make_index_sequence", "variant": "variant", "vector": "vector",
+}
 CITATION = re.compile(r"\(eqs?\.\s*(\d+[a-z]?(?:(?:\s*,\s*|\s*-\s*|\s+and\s+|\s+to\s+)\d+[a-z]?)*)")
 DEFINITION = re.compile(r"^\*\*\(eq\. (\d+[a-z]?)\)", re.M)
 MAX_FUNCTION_LINES = 80
@@ -89,6 +105,28 @@ def check_layers(tree):
             parts = path.split("/")
             if parts[0] == "ifsi" and parts[1] not in allowed:
                 yield f"{name}:{line}: {layer}/ may not include {path}; it may include: {' '.join(sorted(allowed))}"
+
+
+def check_standard(tree):
+    provider = {name: header for header, names in STANDARD.items() for name in names.split()}
+
+    def included(name, seen):
+        """The standard headers that a header includes, by itself or by others of ours."""
+        seen.add(name)
+        paths = {path for _, path in tree.includes(name)} if name in tree.sources else set()
+        ours = {"include/" + path for path in paths if path.startswith("ifsi/")} - seen
+        return paths.union(*(included(path, seen) for path in ours))
+
+    for name, text in tree.sources.items():
+        if not name.startswith("include/"):
+            continue
+        known, missing = included(name, set()), {}
+        for match in re.finditer(r"\bstd::(\w+)", without_comments(text)):
+            header = provider.get(match.group(1))
+            if header and header not in known:
+                missing.setdefault(header, (line_of(text, match.start()), match.group(1)))
+        for header, (line, used) in missing.items():
+            yield f"{name}:{line}: std::{used} without #include <{header}>"
 
 
 def check_libraries(tree):
@@ -204,7 +242,7 @@ def check_links(tree):
                 yield f"{name}:{line_of(text, match.start())}: the link to {target} leads nowhere"
 
 
-CHECKS = [check_layers, check_libraries, check_cycles, check_equations, check_functions, check_links]
+CHECKS = [check_layers, check_standard, check_libraries, check_cycles, check_equations, check_functions, check_links]
 
 
 def main():

@@ -5,9 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <random>
 #include <type_traits>
+
+#include "support/eigen.hpp"
 
 namespace ifsi {
 namespace {

@@ -54,6 +54,15 @@ class Check(unittest.TestCase):
                           include__ifsi__core__a_DOT_hpp='#include "ifsi/core/b.hpp"\n',
                           include__ifsi__core__b_DOT_hpp='#include "ifsi/core/a.hpp"\n')
 
+    def test_standard_header_missing(self):
+        self.assert_fault("include/ifsi/core/a.hpp:2: std::vector without #include <vector>",
+                          include__ifsi__core__a_DOT_hpp="// std::map\nstd::vector<std::size_t> a, b;\n")
+
+    def test_standard_header_by_another_of_ours(self):
+        code, output = self.run_on(include__ifsi__core__a_DOT_hpp="#include <vector>\n",
+                                   include__ifsi__core__b_DOT_hpp='#include "ifsi/core/a.hpp"\nstd::vector<int> b;\n')
+        self.assertEqual((code, output), (0, ""))
+
     def test_hidden_library(self):
         self.assert_fault("<HYPRE_parcsr_ls.h> in a public header",
                           include__ifsi__linalg__a_DOT_hpp="#include <HYPRE_parcsr_ls.h>\n")

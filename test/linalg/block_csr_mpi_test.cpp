@@ -55,7 +55,7 @@ void compare_product_with_dense() {
   const Eigen::VectorXd x = test::some_vector(K.layout().n_global() * B);
   std::vector<double> x_local = test::scatter(K.layout(), B, x), y(x_local.size());
   K.apply(x_local.data(), y.data());
-  const Eigen::VectorXd expected = test::dense(K) * x;
+  const Eigen::VectorXd expected = test::multiply(test::dense(K), x);
   EXPECT_LT((test::gather(K.layout(), B, y.data()) - expected).norm(), 1e-13 * expected.norm());
 }
 

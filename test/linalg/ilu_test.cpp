@@ -51,7 +51,7 @@ template <class Preconditioner>
 MatrixXd implied_matrix(const Preconditioner& P, long n) {
   MatrixXd inverse(n, n);
   for (long j = 0; j < n; ++j) inverse.col(j) = apply(P, VectorXd::Unit(n, j));
-  return inverse.inverse();
+  return test::inverse(inverse);
 }
 
 template <int dim>
@@ -110,8 +110,8 @@ TEST(BlockGaussSeidel, IsOneForwardAndOneBackwardSweep) {
   for (long i = 0; i < A.rows(); ++i)
     for (long j = 0; j < A.cols(); ++j) (i / 2 == j / 2 ? D : i > j ? L : U)(i, j) = A(i, j);
   const VectorXd b = test::some_vector(A.rows());
-  const VectorXd forward = (D + L).inverse() * b;
-  const VectorXd expected = (D + U).inverse() * (b - L * forward);
+  const VectorXd forward = test::multiply(test::inverse(D + L), b);
+  const VectorXd expected = test::multiply(test::inverse(D + U), b - test::multiply(L, forward));
   BlockGaussSeidel<2> sweep;
   sweep.update(model.K);
   EXPECT_LT((apply(sweep, b) - expected).norm(), 1e-5 * expected.norm());

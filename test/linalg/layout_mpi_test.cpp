@@ -1,6 +1,7 @@
 // Layout against the definition: every entry has one owner, ghosts see it, sums return to it.
 #include <gtest/gtest.h>
 
+#include "ifsi/core/error.hpp"
 #include "ifsi/linalg/layout.hpp"
 
 namespace {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "ifsi/core/error.hpp"
 #include "ifsi/mesh/hilbert.hpp"
 
 namespace ifsi {

@@ -15,6 +15,7 @@
 #include "ifsi/core/error.hpp"
 #include "ifsi/coupling/point_locator.hpp"
 #include "ifsi/element/geometry.hpp"
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/mesh/mesh.hpp"
 
 namespace ifsi {
@@ -280,5 +281,10 @@ class Interpolation {
   std::vector<int> held_, owned_, lost_;
   long revision_ = 0;
 };
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_INTERPOLATION(Element, external) external template class Interpolation<Element>;
+IFSI_FOR_EACH_PLANE_CELL(IFSI_INTERPOLATION, extern)
+IFSI_FOR_EACH_SPACE_CELL(IFSI_INTERPOLATION, extern)
 
 }  // namespace ifsi

@@ -12,6 +12,7 @@
 #include "ifsi/coupling/bounding_box.hpp"
 #include "ifsi/coupling/cell_distance.hpp"
 #include "ifsi/coupling/point_tree.hpp"
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/element/inverse_map.hpp"
 #include "ifsi/mesh/mesh.hpp"
 
@@ -200,5 +201,10 @@ class PointLocator {
   std::vector<int> first_cell_, cells_of_point_;
   std::vector<SizeClass> size_classes_;
 };
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_POINT_LOCATOR(Element, external) external template class PointLocator<Element>;
+IFSI_FOR_EACH_PLANE_CELL(IFSI_POINT_LOCATOR, extern)
+IFSI_FOR_EACH_SPACE_CELL(IFSI_POINT_LOCATOR, extern)
 
 }  // namespace ifsi

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/io/vtu.hpp"
 #include "ifsi/mesh/mesh.hpp"
 
@@ -96,5 +97,9 @@ void MeshOutput<Element>::displace(const double* values, int stride) {
       piece_.points[3 * i + c] =
           mesh_.points[points_[i]][c] + values[static_cast<long>(mesh_.point_node[points_[i]]) * stride + c];
 }
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_MESH_OUTPUT(Element, external) external template class MeshOutput<Element>;
+IFSI_FOR_EACH_CELL(IFSI_MESH_OUTPUT, extern)
 
 }  // namespace ifsi

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/mesh/axis.hpp"
 #include "ifsi/mesh/extrude.hpp"
 #include "ifsi/mesh/split.hpp"
@@ -168,5 +169,14 @@ GlobalMesh<Element> box(const Vec<double, Element::dim>& lower, const Vec<double
   for (int d = 0; d < Element::dim; ++d) axes[d] = uniform_axis(lower[d], upper[d], cells[d]);
   return box<Element>(axes, options);
 }
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_BOX(Element, external)                                                         \
+  external template GlobalMesh<Element> box<Element>(const std::array<Axis, Element::dim>&, \
+                                                     const BoxOptions<Element::dim>&);      \
+  external template GlobalMesh<Element> box<Element>(                                       \
+      const Vec<double, Element::dim>&, const Vec<double, Element::dim>&,                   \
+      const std::array<int, Element::dim>&, const BoxOptions<Element::dim>&);
+IFSI_FOR_EACH_CELL(IFSI_BOX, extern)
 
 }  // namespace ifsi

@@ -11,6 +11,7 @@
 
 #include "ifsi/core/error.hpp"
 #include "ifsi/element/geometry.hpp"
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/mesh/global_mesh.hpp"
 #include "ifsi/mesh/topology.hpp"
 
@@ -176,5 +177,11 @@ void drop_unused_points(GlobalMesh<Element>& mesh) {
   for (auto& cell : mesh.cells)
     for (int& p : cell) p = number[p];
 }
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_CHECK(Element, external)                                            \
+  external template void check(const GlobalMesh<Element>&, const CheckOptions&); \
+  external template void drop_unused_points(GlobalMesh<Element>&);
+IFSI_FOR_EACH_CELL(IFSI_CHECK, extern)
 
 }  // namespace ifsi

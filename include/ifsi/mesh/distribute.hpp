@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ifsi/core/communicator.hpp"
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/mesh/check.hpp"
 #include "ifsi/mesh/global_mesh.hpp"
 #include "ifsi/mesh/hilbert.hpp"
@@ -243,5 +244,10 @@ Mesh<Element> distribute(const GlobalMesh<Element>& mesh, Communicator comm) {
   detail::fill_boundaries(mesh, local, out);
   return out;
 }
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_DISTRIBUTE(Element, external) \
+  external template Mesh<Element> distribute(const GlobalMesh<Element>&, Communicator);
+IFSI_FOR_EACH_CELL(IFSI_DISTRIBUTE, extern)
 
 }  // namespace ifsi

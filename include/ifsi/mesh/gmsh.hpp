@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/mesh/check.hpp"
 #include "ifsi/mesh/global_mesh.hpp"
 #include "ifsi/mesh/gmsh_file.hpp"
@@ -201,5 +202,10 @@ GlobalMesh<Element> read_gmsh(const std::string& path, const GmshOptions& option
     throw Error(error.code(), path + ": " + error.what());
   }
 }
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_READ_GMSH(Element, external) \
+  external template GlobalMesh<Element> read_gmsh(const std::string&, const GmshOptions&);
+IFSI_FOR_EACH_CELL(IFSI_READ_GMSH, extern)
 
 }  // namespace ifsi

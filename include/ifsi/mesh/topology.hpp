@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ifsi/core/error.hpp"
+#include "ifsi/element/instantiate.hpp"
 #include "ifsi/mesh/global_mesh.hpp"
 
 namespace ifsi {
@@ -136,5 +137,11 @@ void mark_boundaries(GlobalMesh<Element>& mesh, Name&& name) {
     mesh.boundary_faces.push_back({face.cell, face.local_face, name(center)});
   }
 }
+
+// Compiled once for each element, in src/instantiate.
+#define IFSI_TOPOLOGY(Element, external)                                            \
+  external template std::vector<CellFace> sorted_faces(const GlobalMesh<Element>&); \
+  external template std::vector<CellFace> exterior_faces(const GlobalMesh<Element>&);
+IFSI_FOR_EACH_CELL(IFSI_TOPOLOGY, extern)
 
 }  // namespace ifsi

@@ -3,6 +3,7 @@
 /// Element residual and tangent of the immersed solid: one cell, or W cells at once when T is a Pack<W>.
 
 #include <algorithm>
+#include <type_traits>
 
 #include "ifsi/element/geometry.hpp"
 #include "ifsi/quadrature/basis_table.hpp"
