@@ -38,29 +38,43 @@ class ThinSheet {
 
   template <class T, int n, int dim>
   T psi(const Mat<T, n>& F, const Vec<T, dim>& X) const {
-    const Vec<T, n> g = shear_strain(F);
-    const T J_1 = det(F) - T(1.0);
-    return T(law_.psi(relaxed(F, X), X) + 0.5 * shear_ * dot(g, g) + 0.5 * kappa_ * J_1 * J_1);
+    return psi(F, X, normal<T, n>());
   }
   template <class T, int n, int dim>
   Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X) const {
-    const Vec<T, n> N = normal<T, n>(), g = shear_strain(F);
+    return first_piola(F, X, normal<T, n>());
+  }
+  template <class T, int n, int dim>
+  Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X) const {
+    return tangent(F, X, normal<T, n>());
+  }
+  [[nodiscard]] double young_modulus() const { return law_.young_modulus(); }
+
+  // The same where the sheet is curved and the caller knows its unit normal N at X.
+  template <class T, int n, int dim>
+  T psi(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
+    const Vec<T, n> g = shear_strain(F, N);
+    const T J_1 = det(F) - T(1.0);
+    return T(law_.psi(relaxed(F, X, N), X) + 0.5 * shear_ * dot(g, g) + 0.5 * kappa_ * J_1 * J_1);
+  }
+  template <class T, int n, int dim>
+  Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
+    const Vec<T, n> g = shear_strain(F, N);
     const T J = det(F);
-    return law_.first_piola(relaxed(F, X), X) * in_plane<T, n>() +
+    return law_.first_piola(relaxed(F, X, N), X) * in_plane(N) +
            T(shear_) * (outer(F * N, g) + outer(F * g, N)) +
            T(kappa_ * (J - 1.0) * J) * transpose(inverse(F));
   }
   template <class T, int n, int dim>
-  Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X) const {
-    Tangent<T, n> A = membrane_tangent(F, X);
-    add_shear(F, A);
+  Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
+    Tangent<T, n> A = membrane_tangent(F, X, N);
+    add_shear(F, N, A);
     const T J = det(F), k_2 = kappa_ * (2.0 * J - 1.0) * J, k_1 = kappa_ * (J - 1.0) * J;
     const Mat<T, n> G = transpose(inverse(F));
     return A + tangent_from<T, n>([&](int i, int M, int k, int L) {
              return T(k_2 * G(i, M) * G(k, L) - k_1 * G(i, L) * G(k, M));
            });
   }
-  [[nodiscard]] double young_modulus() const { return law_.young_modulus(); }
 
  private:
   template <class T, int n>
@@ -69,54 +83,54 @@ class ThinSheet {
     for (int i = 0; i < n; ++i) N[i] = T(normal_[i]);
     return N;
   }
+  /// Q.
   template <class T, int n>
-  [[nodiscard]] Mat<T, n> in_plane() const {
-    return Mat<T, n>::identity() - outer(normal<T, n>(), normal<T, n>());
+  [[nodiscard]] static Mat<T, n> in_plane(const Vec<T, n>& N) {
+    return Mat<T, n>::identity() - outer(N, N);
   }
   /// Q F^T F N, twice the Green-Lagrange shear strains between the sheet's plane and its normal.
   template <class T, int n>
-  [[nodiscard]] Vec<T, n> shear_strain(const Mat<T, n>& F) const {
-    return in_plane<T, n>() * (transpose(F) * (F * normal<T, n>()));
+  [[nodiscard]] static Vec<T, n> shear_strain(const Mat<T, n>& F, const Vec<T, n>& N) {
+    return in_plane(N) * (transpose(F) * (F * N));
   }
 
   /// F Q + d (x) N with the director of least energy, by Newton's method from the unit normal.
   template <class T, int n, int dim>
-  [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X) const {
+  [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
     using std::sqrt;
-    const Vec<T, n> N = normal<T, n>();
-    const Mat<T, n> F_Q = F * in_plane<T, n>();
+    const Mat<T, n> F_Q = F * in_plane(N);
     Vec<T, n> d = transpose(inverse(F)) * N;
     d = T(1.0 / sqrt(dot(d, d))) * d;
     constexpr int iterations = 8;  // quadratic: round-off after 4 at strains of 10 %
     for (int k = 0; k < iterations; ++k) {
       const Mat<T, n> F_d = F_Q + outer(d, N);
-      d = d - inverse(normal_stiffness(law_.tangent(F_d, X))) * (law_.first_piola(F_d, X) * N);
+      d = d - inverse(normal_stiffness(law_.tangent(F_d, X), N)) * (law_.first_piola(F_d, X) * N);
     }
     return F_Q + outer(d, N);
   }
   /// A_iMkL N_M N_L.
-  template <class T, int n2>
-  [[nodiscard]] auto normal_stiffness(const Mat<T, n2>& A) const {
-    constexpr int n = n2 == 4 ? 2 : 3;
+  template <class T, int n>
+  [[nodiscard]] static Mat<T, n> normal_stiffness(const Tangent<T, n>& A, const Vec<T, n>& N) {
     Mat<T, n> K = Mat<T, n>::zero();
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < n; ++k)
         for (int M = 0; M < n; ++M)
-          for (int L = 0; L < n; ++L) K(i, k) += T(normal_[M] * normal_[L]) * A(i * n + M, k * n + L);
+          for (int L = 0; L < n; ++L) K(i, k) += T(N[M] * N[L]) * A(i * n + M, k * n + L);
     return K;
   }
 
   /// The law's tangent in the plane, less what the director yields: A_QQ - A_QN (A_NN)^-1 A_NQ.
   template <class T, int n, int dim>
-  [[nodiscard]] Tangent<T, n> membrane_tangent(const Mat<T, n>& F, const Vec<T, dim>& X) const {
-    const Tangent<T, n> A = law_.tangent(relaxed(F, X), X);
-    const Mat<T, n> Q = in_plane<T, n>(), K_inverse = inverse(normal_stiffness(A));
+  [[nodiscard]] Tangent<T, n> membrane_tangent(const Mat<T, n>& F, const Vec<T, dim>& X,
+                                               const Vec<T, n>& N) const {
+    const Tangent<T, n> A = law_.tangent(relaxed(F, X, N), X);
+    const Mat<T, n> Q = in_plane(N), K_inverse = inverse(normal_stiffness(A, N));
     std::array<Mat<T, n>, n> A_N;  // per k: A_iMkL N_L, M in the plane
     for (int k = 0; k < n; ++k) {
       A_N[k] = Mat<T, n>::zero();
       for (int i = 0; i < n; ++i)
         for (int M = 0; M < n; ++M)
-          for (int L = 0; L < n; ++L) A_N[k](i, M) += T(normal_[L]) * A(i * n + M, k * n + L);
+          for (int L = 0; L < n; ++L) A_N[k](i, M) += N[L] * A(i * n + M, k * n + L);
       A_N[k] = A_N[k] * Q;
     }
     return tangent_from<T, n>([&](int i, int M, int k, int L) {
@@ -131,9 +145,9 @@ class ThinSheet {
   }
   /// Of shear / 2 |g|^2, g = Q F^T F N.
   template <class T, int n>
-  void add_shear(const Mat<T, n>& F, Tangent<T, n>& A) const {
-    const Vec<T, n> N = normal<T, n>(), f = F * N, g = shear_strain(F);
-    const Mat<T, n> Q = in_plane<T, n>(), F_Q = F * Q;
+  void add_shear(const Mat<T, n>& F, const Vec<T, n>& N, Tangent<T, n>& A) const {
+    const Vec<T, n> f = F * N, g = shear_strain(F, N);
+    const Mat<T, n> Q = in_plane(N), F_Q = F * Q;
     for (int i = 0; i < n; ++i)
       for (int M = 0; M < n; ++M)
         for (int k = 0; k < n; ++k)

@@ -148,9 +148,10 @@ void check_protrusion(Run& run, const Problem& problem, double allowed) {
   run.metric("protrusion_max", deepest, "cm");
 }
 
-template <class SolidElement>
-void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& data) {
-  using Body = SolidBody<SolidElement, NeoHookean>;
+/// \tparam Formulation Displacement, or Sheet with a law of thin sheets.
+template <class SolidElement, class Formulation, class Law>
+void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& data, const Law& law) {
+  using Body = SolidBody<SolidElement, Law, Formulation>;
   using Problem = FsiProblem<Tet1, Body>;
   const FlowCurve flow(o.curve.empty() ? data + "/curves/aortic_flow.csv" : o.curve);
   if (flow.begin() > 0.0 || flow.end() < o.time.end)
@@ -165,8 +166,7 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
   for (int k = 0; k < (o.is_sector() ? 1 : 3); ++k) {
     auto leaflet = leaflet_mesh<SolidElement>(o.root, o.leaflet, o.spacing * o.h_valve, o.layers,
                                               o.is_sector(), k * AorticRoot::third);
-    leaflets.emplace_back("leaflet " + std::to_string(k + 1), std::move(leaflet.mesh),
-                          NeoHookean(Lame::from_young(o.E, o.nu)), solid);
+    leaflets.emplace_back("leaflet " + std::to_string(k + 1), std::move(leaflet.mesh), law, solid);
     free_edges.push_back(std::move(leaflet.free_edge));
   }
   constexpr bool may_protrude = true;

@@ -16,6 +16,7 @@ struct CellDeformation {
   std::array<Mat<T, n>, n_points> F;
   std::array<Vec<T, dim>, n_points> X;
   std::array<T, n_points> dV;
+  std::array<Vec<T, n>, n_points> N;  ///< unit normal of a sheet (formulation Sheet only)
 };
 
 /// Second derivatives of an energy psi(F, theta).
@@ -38,7 +39,7 @@ Mat<T, 3> cauchy(const Law& law, const Mat<T, n>& F_n, const Vec<T, dim>& X) {
 /// Energy, P and dP/dF from the law at each point on its own: exact for compressible solids, locks towards
 /// incompressibility on elements of order 1.
 struct Displacement {
-  static constexpr bool mean_dilatation = false;
+  static constexpr bool mean_dilatation = false, sheet = false;
 
   template <SolidLaw Law, class T, int n, int dim, int n_points>
   class Response {
@@ -51,6 +52,36 @@ struct Displacement {
     [[nodiscard]] Tangent<T, n> tangent(int q) const { return law_.tangent(cell_.F[q], cell_.X[q]); }
     /// Cauchy stress in all three directions.
     [[nodiscard]] Mat<T, 3> cauchy(int q) const { return detail::cauchy(law_, cell_.F[q], cell_.X[q]); }
+
+   private:
+    const Law& law_;
+    const Cell& cell_;
+  };
+};
+
+/// A law of thin sheets (eq. 29) on a curved sheet of hexes, whose third local axis runs through the
+/// thickness: the normal at a point is that of its first two.
+struct Sheet {
+  static constexpr bool mean_dilatation = false, sheet = true;
+
+  template <SolidLaw Law, class T, int n, int dim, int n_points>
+  class Response {
+   public:
+    using Cell = CellDeformation<T, n, dim, n_points>;
+    Response(const Law& law, const Cell& cell) : law_(law), cell_(cell) {}
+
+    [[nodiscard]] T energy(int q) const { return law_.psi(cell_.F[q], cell_.X[q], cell_.N[q]); }
+    [[nodiscard]] Mat<T, n> first_piola(int q) const {
+      return law_.first_piola(cell_.F[q], cell_.X[q], cell_.N[q]);
+    }
+    [[nodiscard]] Tangent<T, n> tangent(int q) const {
+      return law_.tangent(cell_.F[q], cell_.X[q], cell_.N[q]);
+    }
+    /// Cauchy stress.
+    [[nodiscard]] Mat<T, 3> cauchy(int q) const {
+      const Mat<T, n>& F = cell_.F[q];
+      return T(1.0 / det(F)) * (first_piola(q) * transpose(F));
+    }
 
    private:
     const Law& law_;
@@ -137,7 +168,7 @@ class DilatedLaw<Law, T, n, dim> {
 /// functional with dilatation and pressure constant in the cell, both condensed. The energy is
 /// sum_q psi(F_q, theta) dV_q with theta = int J dV / V, the mean volume ratio. For elements of order 1.
 struct MeanDilatation {
-  static constexpr bool mean_dilatation = true;
+  static constexpr bool mean_dilatation = true, sheet = false;
 
   template <SolidLaw Law, class T, int n, int dim, int n_points>
   class Response {

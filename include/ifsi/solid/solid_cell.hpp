@@ -39,6 +39,8 @@ class SolidCell {
   static constexpr int hoop_slot = dim * dim;
   static constexpr bool mean_dilatation = Formulation::mean_dilatation;
   static_assert(!axisymmetric || dim == 2, "bodies of revolution are meshed in (r, z)");
+  static_assert(!Formulation::sheet || (dim == 3 && Element::n_nodes != 4 && Element::n_nodes != 10),
+                "curved sheets are meshed by hexes or wedges");
   static_assert(!mean_dilatation || Element::order == 1, "mean dilatation is for elements of order 1");
 
   using Table = BasisTable<Element, Rule>;
@@ -143,8 +145,17 @@ class SolidCell {
       if constexpr (axisymmetric) grad_N_[q][a].hoop = Table::N[q][a] / X[0];
     }
     deformation_.X[q] = X;
+    if constexpr (Formulation::sheet) deformation_.N[q] = unit_normal(J);
     deformation_.dV[q] = Table::weights[q] * det(J) * Coordinates::measure(X[0]);
     deformation_.F[q] = gradient(q, cell_.u) + Mat<T, n>::identity();
+  }
+
+  /// Of the surface along the first two local axes.
+  [[nodiscard]] static Vec<T, dim> unit_normal(const Mat<T, dim>& J) {
+    using std::sqrt;
+    const Mat<T, dim> G = transpose(inverse(J));  // grad of the third local coordinate in its third column
+    const Vec<T, dim> N{G(0, 2), G(1, 2), G(2, 2)};
+    return T(1.0 / sqrt(dot(N, N))) * N;
   }
 
   /// Reference gradient of a nodal vector field.
