@@ -19,7 +19,8 @@ namespace ifsi {
 /// The free edge is a hyperbola along the planes of the commissures, rounded in the middle. Attachment and
 /// commissural edges lie outside of the vessel by `protrusion`: their nodes are held there.
 struct Leaflet {
-  double height = 1.6;       ///< of the free edge over the nadir
+  double height = 1.6;       ///< of the commissures' top over the nadir
+  double dip = 0.6;          ///< of the free edge in the middle below the commissures' top
   double thickness = 0.015;  ///<
   double gap = 0.03;         ///< distance of the free edge from the planes of the commissures
   double rounding = 0.1;     ///< of the free edge: half the width of the hyperbola's middle
@@ -85,7 +86,7 @@ class LeafletSurface {
   }
   [[nodiscard]] Point free_edge(double a) const {
     const double y = a * y_end_;
-    return {free_edge_x(y), y, leaflet_.height};
+    return {free_edge_x(y), y, leaflet_.height - (1.0 - a * a) * leaflet_.dip};
   }
   [[nodiscard]] Point attachment(double a) const {
     const double angle = a * angle_end_;
@@ -94,18 +95,18 @@ class LeafletSurface {
   void check() const {
     const Leaflet& l = leaflet_;
     if (l.thickness > 0.0 && l.gap > 0.5 * l.thickness && l.rounding > 0.0 && l.protrusion >= 0.0 &&
-        l.belly >= 0.0 && l.height > root_.commissure && l.height < root_.height &&
-        l.gap + l.rounding < 0.5 * root_.radius)
+        l.belly >= 0.0 && l.height > root_.commissure && l.height < root_.height && l.dip >= 0.0 &&
+        l.dip < l.height && l.gap + l.rounding < 0.5 * root_.radius)
       return;
     throw Error(ExitCode::configuration,
-                "leaflet: found height " + std::to_string(l.height) + ", thickness " +
-                    std::to_string(l.thickness) + ", gap " + std::to_string(l.gap) + ", rounding " +
-                    std::to_string(l.rounding) + ", belly " + std::to_string(l.belly) + ", protrusion " +
-                    std::to_string(l.protrusion) + "; expected a height between the commissures (" +
-                    std::to_string(root_.commissure) + ") and the end of the root (" +
-                    std::to_string(root_.height) +
-                    "), a gap of more than half the thickness, gap + rounding below half the radius, and "
-                    "belly and protrusion not negative");
+                "leaflet: found height " + std::to_string(l.height) + ", dip " + std::to_string(l.dip) +
+                    ", thickness " + std::to_string(l.thickness) + ", gap " + std::to_string(l.gap) +
+                    ", rounding " + std::to_string(l.rounding) + ", belly " + std::to_string(l.belly) +
+                    ", protrusion " + std::to_string(l.protrusion) +
+                    "; expected a height between the commissures (" + std::to_string(root_.commissure) +
+                    ") and the end of the root (" + std::to_string(root_.height) +
+                    "), a gap of more than half the thickness, gap + rounding below half the radius, a dip "
+                    "below the height, and belly, dip and protrusion not negative");
   }
 
   AorticRoot root_;

@@ -47,7 +47,8 @@ struct ValveOptions {
     params.add("mesh.h_valve", h_valve, "cm", "fluid cells around the valve", positive);
     params.add("mesh.growth", growth, "-", "of the cells per length away from the valve", positive);
     params.add("mesh.wall_ratio", wall_ratio, "-", "cells at the wall over those at the axis", {0.1, 1.0});
-    params.add("solid.height", leaflet.height, "cm", "of the free edge over the nadir", positive);
+    params.add("solid.height", leaflet.height, "cm", "of the commissures' top over the nadir", positive);
+    params.add("solid.dip", leaflet.dip, "cm", "of the free edge in the middle below it", non_negative);
     params.add("solid.thickness", leaflet.thickness, "cm", "of the leaflets", positive);
     params.add("solid.gap", leaflet.gap, "cm", "of the free edge to the plane of the commissures", positive);
     params.add("solid.rounding", leaflet.rounding, "cm", "of the free edge in the middle", positive);
