@@ -26,6 +26,7 @@ const Scene closed_valve{"closed", 4.0, 1.0, 1e-2, {{1.9894, 0.0, 2.0106, 1.0}},
 
 struct Values {
   double E = 5.6e7, dt = 0.0, s = 1.0;
+  int layers = 2;
   std::string base = "auto";
 };
 
@@ -47,6 +48,7 @@ std::unique_ptr<Problem> make_problem(const Mesh<Quad1>& mesh, const Scene& scen
   LeafletOptions o(scene.cells, {4, 100 * refinement}, scene.dt);
   o.fsi.s.s_max = values.s;
   o.fsi.linear.base = values.base;
+  o.fsi.patch_layers = values.layers;
   std::vector<Body> beams;
   for (const auto& [x_0, y_0, x_1, y_1] : scene.beams)
     beams.emplace_back("beam", box<Quad1>({x_0, y_0}, {x_1, y_1}, o.n_s),
@@ -94,6 +96,7 @@ struct Ranges {
   std::vector<double> E{1e3, 5.6e7, 1e9}, dt{1e-5, 1e-3, 1e-1}, s{1, 100, 1e5};
   std::vector<double> refinements{1};
   std::array<int, 2> steps{10, 20};
+  int layers = 2;
 };
 
 void survey(Run& run, CsvFile& csv, const Scene& scene, const Ranges& ranges) {
@@ -108,9 +111,9 @@ void survey(Run& run, CsvFile& csv, const Scene& scene, const Ranges& ranges) {
       for (double E : ranges.E)
         for (double dt : ranges.dt)
           for (double s : ranges.s) {
-            const auto problem = make_problem(mesh, scene, refinement, {E, dt, s, base});
+            const auto problem = make_problem(mesh, scene, refinement, {E, dt, s, ranges.layers, base});
             const Count old = solve(*problem, states[0], dt), kept = solve(*problem, states[1], dt);
-            const auto anew = make_problem(mesh, scene, refinement, {E, dt, s, base});
+            const auto anew = make_problem(mesh, scene, refinement, {E, dt, s, ranges.layers, base});
             const Count fresh = solve(*anew, states[1], dt);
             const auto mark = [](const Count& c) { return c.converged ? (c.renewed ? "" : "k") : "!"; };
             char line[200];
@@ -144,6 +147,7 @@ int main(int argc, char** argv) {
     run.params.add("dt", ranges.dt, "s", "time steps");
     run.params.add("s", ranges.s, "-", "scales s of tau_M around the solid");
     run.params.add("refinements", ranges.refinements, "-", "1: about 13,000 unknowns; 2: 50,000; 4: 200,000");
+    run.params.add("layers", ranges.layers, "-", "layers of the patch", {0, 100});
     run.params.add("steps", ranges.steps[0], "-", "steps to the state whose set-up is kept", {1, 10000});
     run.params.add("steps_solved", ranges.steps[1], "-", "steps to the state that is solved", {2, 10000});
     run.parse();

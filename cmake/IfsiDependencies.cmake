@@ -17,6 +17,12 @@ find_library(TOMLPLUSPLUS_LIBRARY tomlplusplus REQUIRED)
 mark_as_advanced(HYPRE_LIBRARY HYPRE_INCLUDE_DIR METIS_LIBRARY UMFPACK_LIBRARY SUITESPARSE_INCLUDE_DIR
                  TOMLPLUSPLUS_LIBRARY)
 
+# MUMPS is optional: with it the ranks share the LU of large patches.
+option(IFSI_MUMPS "Use MUMPS where it is installed" ON)
+find_library(MUMPS_LIBRARY dmumps)
+find_path(MUMPS_INCLUDE_DIR dmumps_c.h)
+mark_as_advanced(MUMPS_LIBRARY MUMPS_INCLUDE_DIR)
+
 # Imported, so that an exported ifsi::ifsi may name it without exporting it.
 if(NOT TARGET ifsi_dependencies)
   add_library(ifsi_dependencies INTERFACE IMPORTED GLOBAL)
@@ -24,4 +30,8 @@ if(NOT TARGET ifsi_dependencies)
                                                                 ${SUITESPARSE_INCLUDE_DIR})
   target_link_libraries(ifsi_dependencies INTERFACE ${HYPRE_LIBRARY} ${METIS_LIBRARY} ${UMFPACK_LIBRARY}
                                                     ${TOMLPLUSPLUS_LIBRARY} fmt::fmt ZLIB::ZLIB)
+  if(IFSI_MUMPS AND MUMPS_LIBRARY AND MUMPS_INCLUDE_DIR)
+    target_include_directories(ifsi_dependencies SYSTEM INTERFACE ${MUMPS_INCLUDE_DIR})
+    target_link_libraries(ifsi_dependencies INTERFACE ${MUMPS_LIBRARY})
+  endif()
 endif()

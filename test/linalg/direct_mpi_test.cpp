@@ -1,4 +1,4 @@
-// UMFPACK behind DirectSolver against a dense LU.
+// UMFPACK and (where it was found) MUMPS behind DirectSolver against a dense LU.
 #include <gtest/gtest.h>
 
 #include "dense.hpp"
@@ -17,10 +17,12 @@ Eigen::VectorXd solve(const DirectSolver& solver, const BlockCsr<B>& K, const Ei
   return test::gather(K.layout(), B, x.data());
 }
 
+constexpr auto on_root = DirectSolver::Work::on_root, shared = DirectSolver::Work::shared;
+
 template <int dim>
-void compare_with_dense() {
+void compare_with_dense(DirectSolver::Work work) {
   test::StokesModel<dim> model({.cells = 4, .wind = 3});
-  DirectSolver solver;
+  DirectSolver solver(work);
   EXPECT_FALSE(solver.ready());
   solver.factor(model.K);
   EXPECT_TRUE(solver.ready());
@@ -30,29 +32,35 @@ void compare_with_dense() {
 }
 
 TEST(DirectSolver, SolvesAsTheDenseMatrixDoes) {
-  compare_with_dense<2>();
-  compare_with_dense<3>();
+  for (auto work : {on_root, shared}) {
+    compare_with_dense<2>(work);
+    compare_with_dense<3>(work);
+  }
 }
 
 TEST(DirectSolver, RefactorsNewValuesOnTheSamePattern) {
-  test::StokesModel<2> model({.cells = 5});
-  DirectSolver solver;
-  solver.factor(model.K);
-  for (double& value : model.K.values) value *= 2;
-  solver.factor(model.K);
-  const Eigen::VectorXd b = test::some_vector(model.grid.layout.n_global() * 3);
-  const Eigen::VectorXd expected = test::solve(test::dense(model.K), b);
-  EXPECT_LT((solve(solver, model.K, b) - expected).norm(), 1e-9 * expected.norm());
-}
-
-TEST(DirectSolver, TakesAnotherPatternLater) {
-  DirectSolver solver;
-  for (int cells : {4, 6}) {
-    test::StokesModel<2> model({.cells = cells});
+  for (auto work : {on_root, shared}) {
+    test::StokesModel<2> model({.cells = 5});
+    DirectSolver solver(work);
+    solver.factor(model.K);
+    for (double& value : model.K.values) value *= 2;
     solver.factor(model.K);
     const Eigen::VectorXd b = test::some_vector(model.grid.layout.n_global() * 3);
     const Eigen::VectorXd expected = test::solve(test::dense(model.K), b);
     EXPECT_LT((solve(solver, model.K, b) - expected).norm(), 1e-9 * expected.norm());
+  }
+}
+
+TEST(DirectSolver, TakesAnotherPatternLater) {
+  for (auto work : {on_root, shared}) {
+    DirectSolver solver(work);
+    for (int cells : {4, 6}) {
+      test::StokesModel<2> model({.cells = cells});
+      solver.factor(model.K);
+      const Eigen::VectorXd b = test::some_vector(model.grid.layout.n_global() * 3);
+      const Eigen::VectorXd expected = test::solve(test::dense(model.K), b);
+      EXPECT_LT((solve(solver, model.K, b) - expected).norm(), 1e-9 * expected.norm());
+    }
   }
 }
 
@@ -83,11 +91,13 @@ TEST(DirectSolver, SaysThatAMatrixIsSingular) {
 }
 
 TEST(DirectSolver, KnowsItsCost) {
-  test::StokesModel<2> model({.cells = 8});
-  DirectSolver solver;
-  solver.factor(model.K);
-  EXPECT_GT(solver.cost().lu_entries, model.grid.layout.n_global() * 3 * 27);
-  EXPECT_GT(solver.cost().flops, solver.cost().lu_entries);
-  EXPECT_GT(solver.setup_cost(), 8);
+  for (auto work : {on_root, shared}) {
+    test::StokesModel<2> model({.cells = 8});
+    DirectSolver solver(work);
+    solver.factor(model.K);
+    EXPECT_GT(solver.cost().lu_entries, model.grid.layout.n_global() * 3 * 27);
+    EXPECT_GT(solver.cost().flops, solver.cost().lu_entries);
+    EXPECT_GT(solver.setup_cost(), 8);
+  }
 }
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sparse LU by UMFPACK, with the symbolic analysis kept as long as the pattern stays.
+/// Sparse LU by UMFPACK or MUMPS, with the symbolic analysis kept as long as the pattern stays.
 
 #include <memory>
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace ifsi {
 
-/// A x = b by a pivoting LU on the root rank; with several ranks matrix and vectors are gathered there.
+/// A x = b by a pivoting LU; with several ranks matrix and vectors are gathered on root, and the work is done
+/// there, or shared by all ranks.
 /// Not for large 3D problems: fill grows like n^(4/3).
 class DirectSolver {
  public:
@@ -20,7 +21,10 @@ class DirectSolver {
     double memory_bytes = 0;  ///< peak
   };
 
-  DirectSolver();
+  /// on_root: by UMFPACK. shared: by MUMPS, where it was found when ifsi was built, else on root.
+  enum class Work { on_root, shared };
+
+  explicit DirectSolver(Work work = Work::on_root);
   ~DirectSolver();
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;

@@ -21,6 +21,9 @@ struct PatchedSolverOptions {
   std::string base =
       "auto";  ///< fluid-only preconditioner: "direct" (kept LU), "gmres" (block preconditioner)
   int max_iterations = 200;
+  /// How many times as large as the solid asks for the patch may become by holding, too, the nodes that were
+  /// around the solid when the fluid was set up; 1: it does not hold them.
+  double growth = 2.0;
   bool enclosed = false;
 };
 
@@ -38,9 +41,11 @@ class PatchedSolver {
       : options_(std::move(options)), schur_(std::move(schur)), saddle_({.enclosed = options_.enclosed}) {}
 
   /// Collective. Declares the patch: in_patch per local node of K_f (ghosts included). Call when the patch or
-  /// the pattern of K_s has changed.
+  /// the pattern of K_s has changed. To it come the nodes of the patch at the fluid's set-up, whose rows have
+  /// moved on with the solid.
   void set_patch(const BlockCsr<B>& K_f, const BlockCsr<B>& K_s, const std::vector<char>& in_patch) {
-    std::vector<long> number_f = patch_numbers(K_f, in_patch);
+    around_solid_.assign(in_patch.begin(), in_patch.begin() + K_f.n_rows());
+    std::vector<long> number_f = patch_numbers(K_f, with_patch_of_setup(K_f.layout().communicator()));
     std::vector<long> number_s(K_s.layout().n_local(), -1);
     std::copy_n(number_f.begin(), K_f.n_rows(), number_s.begin());
     K_s.layout().update_ghosts(number_s.data());
@@ -72,9 +77,27 @@ class PatchedSolver {
   /// The fluid's set-up fits no longer (another time step).
   void invalidate() { reuse_.invalidate(); }
   [[nodiscard]] long patch_unknowns() const { return patch_ ? patch_->layout.n_global() * B : 0; }
+  /// Of the last solve.
+  [[nodiscard]] const BlockCsr<B>& patch_matrix() const { return patch_matrix_; }
   [[nodiscard]] int setups() const { return n_setups_; }
 
  private:
+  /// The owned nodes around the solid and those that were when the fluid was set up. Where there are too many
+  /// of those the set-up is no longer worth keeping.
+  std::vector<char> with_patch_of_setup(const Communicator& comm) {
+    if (options_.growth <= 1.0 || reuse_.due()) return around_solid_;
+    std::vector<char> all = around_solid_;
+    double counts[2] = {};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i] |= at_setup_[i];
+      counts[0] += around_solid_[i], counts[1] += all[i];
+    }
+    comm.sum_in_place(counts, 2);
+    if (counts[1] <= options_.growth * counts[0]) return all;
+    invalidate();
+    return around_solid_;
+  }
+
   /// Global number within the patch of each local node of K_f, -1 outside; also fills nodes_.
   std::vector<long> patch_numbers(const BlockCsr<B>& K_f, const std::vector<char>& in_patch) {
     nodes_.clear();
@@ -151,6 +174,7 @@ class PatchedSolver {
 
   void renew(const BlockCsr<B>& K_f) {
     ++n_setups_;
+    at_setup_ = around_solid_;
     const long n = K_f.layout().n_global() * B;
     use_direct_ = options_.base == "direct" || (options_.base == "auto" && B == 3 && n <= 400'000);
     if (use_direct_) {
@@ -220,11 +244,12 @@ class PatchedSolver {
   SchurProvider schur_;
   bool use_direct_ = true;
   int n_setups_ = 0;
-  DirectSolver fluid_lu_, patch_lu_;
+  DirectSolver fluid_lu_, patch_lu_{B == 4 ? DirectSolver::Work::shared : DirectSolver::Work::on_root};
   SaddlePreconditioner<B> saddle_;
   ReusePolicy reuse_;
-  std::vector<int> nodes_;    ///< owned nodes of the patch
-  std::vector<long> ghosts_;  ///< patch numbers of others' nodes
+  std::vector<char> around_solid_, at_setup_;  ///< per owned node: now, and when the fluid was set up
+  std::vector<int> nodes_;                     ///< owned nodes of the patch
+  std::vector<long> ghosts_;                   ///< patch numbers of others' nodes
   long first_ = 0;
   std::shared_ptr<const Pattern> patch_;
   BlockCsr<B> patch_matrix_;

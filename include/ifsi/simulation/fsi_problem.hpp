@@ -32,7 +32,9 @@ struct FsiOptions {
   double max_change = 1.0;
   double contact_range = 0.0;     ///< where surfaces begin to repel each other, in fluid spacings; 0: never
   double contact_pressure = 0.0;  ///< of flat surfaces half of the range apart (eq. 33)
-  int patch_layers = 2;           ///< layers of fluid nodes around the cut cells that are solved for directly
+  /// Layers of fluid nodes around the cut cells that are solved for directly. -1: two; none in space at s =
+  /// 1, where they cost more than all else and save no iterations.
+  int patch_layers = -1;
   PatchedSolverOptions linear;
 
   void declare(Parameters& params) {
@@ -49,8 +51,8 @@ struct FsiOptions {
                non_negative);
     params.add("contact.pressure", contact_pressure, "force/area",
                "pressure between flat surfaces half of the range apart: what they must hold", non_negative);
-    params.add("coupling.patch_layers", patch_layers, "-", "layers around the cut cells solved for directly",
-               {0, 20});
+    params.add("coupling.patch_layers", patch_layers, "-",
+               "layers around the cut cells solved for directly (-1: by dimension and s)", {-1, 20});
     params.add_choice("coupling.base", linear.base, {"auto", "direct", "gmres"},
                       "preconditioner of the fluid alone");
   }
@@ -290,7 +292,13 @@ class FsiProblem : public FlowProblem<Element, Model> {
   [[nodiscard]] PatchedSolverOptions patched_options() const {
     PatchedSolverOptions o = fsi_.linear;
     o.enclosed = this->system_.enclosed();
+    if (patch_is_dear()) o.growth = 1.0;
     return o;
+  }
+  /// In space an LU costs much, and at s = 1 the fluid's equations know little of the solid.
+  [[nodiscard]] bool patch_is_dear() const { return Flow::dim == 3 && fsi_.s.s_max == 1.0; }
+  [[nodiscard]] int patch_layers() const {
+    return fsi_.patch_layers >= 0 ? fsi_.patch_layers : patch_is_dear() ? 0 : 2;
   }
 
   /// C, cut cells, s-field and the patch for the positions the solids are expected at.
@@ -312,7 +320,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
         this->system_.constraints().carried_to(K_s_constrained_.layout(), mesh().n_owned_nodes());
     constraints_s_.update_ghosts(K_s_constrained_.layout());
     std::vector<char> in_patch;
-    for (int layer : cut_.layers(fsi_.patch_layers)) in_patch.push_back(layer <= fsi_.patch_layers);
+    for (int layer : cut_.layers(patch_layers())) in_patch.push_back(layer <= patch_layers());
     patched_.set_patch(this->K_, K_s_constrained_, in_patch);
   }
 

@@ -32,7 +32,6 @@ struct ValveOptions {
   ValveOptions() {
     time.dt = 1e-3, time.end = 1.0, time.adaptive = true, time.dt_max = 2e-3, time.checkpoint_every = 0.1;
     flow.rho_inf = 0.0, flow.newton.rtol = 1e-4;
-    fsi.patch_layers = 0;  // in space a layer costs more in factorisation than it saves in iterations
   }
 
   void declare(Parameters& params) {

@@ -1,17 +1,15 @@
 #include "ifsi/linalg/direct.hpp"
 
-#include <umfpack.h>
-
+#include <algorithm>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "ifsi/core/error.hpp"
+#include "lu.hpp"
 
 namespace ifsi {
 namespace {
-
-using Long = SuiteSparse_long;
 
 /// Root's copy of numbers that all ranks hold parts of, in rank order; and the way back.
 class Gatherer {
@@ -55,34 +53,25 @@ class Gatherer {
 
 class DirectSolver::Impl {
  public:
-  ~Impl() {
-    umfpack_dl_free_numeric(&numeric_);
-    umfpack_dl_free_symbolic(&symbolic_);
-  }
+  explicit Impl(Work work) : work_(work) {}
 
   void factor(std::shared_ptr<const Pattern> pattern, int block, std::span<const double> values,
               long pinned) {
     if (pattern != pattern_ || block != block_) analyse(std::move(pattern), block);
     const std::vector<double> blocks = block_values_.gather<double>(values);
     pinned_ = pinned;
-    int status = UMFPACK_OK;
-    if (is_root()) {
-      fill(blocks);
-      status = factor_on_root();
-    }
-    check(status, "factorisation");
+    if (is_root()) fill(blocks);
+    check(lu_->factor(entries_), "factorisation");
     ready_ = true;
   }
 
   void apply(const double* b, double* x) const {
     const std::size_t n_mine = static_cast<std::size_t>(pattern_->n_rows()) * block_;
-    if (comm_.size() == 1 && pinned_ < 0) return solve_on_root(b, x);
+    if (comm_.size() == 1 && pinned_ < 0) return lu_->solve(b, x);
     std::vector<double> all_b = vector_.gather<double>({b, n_mine});
     std::vector<double> all_x(all_b.size());
-    if (is_root()) {
-      if (pinned_ >= 0) all_b[pinned_] = 0;
-      solve_on_root(all_b.data(), all_x.data());
-    }
+    if (is_root() && pinned_ >= 0) all_b[pinned_] = 0;
+    lu_->solve(all_b.data(), all_x.data());
     vector_.scatter(all_x, x);
   }
 
@@ -99,9 +88,13 @@ class DirectSolver::Impl {
     block_values_ = Gatherer(comm_, pattern_->cols.size() * block * block);
     vector_ = Gatherer(comm_, static_cast<std::size_t>(pattern_->n_rows()) * block);
     gather_pattern();
-    int status = UMFPACK_OK;
-    if (is_root()) status = analyse_on_root();
-    check(status, "analysis");
+    if (!lu_) lu_ = make_lu();
+    check(lu_->analyse({block_, row_ptr_, cols_}), "analysis");
+  }
+
+  [[nodiscard]] std::unique_ptr<Lu> make_lu() const {
+    auto lu = work_ == Work::shared ? make_mumps(comm_) : nullptr;
+    return lu ? std::move(lu) : make_umfpack(comm_);
   }
 
   /// Root builds the scalar rows of the whole matrix; source_ says where in the gathered blocks each entry
@@ -125,7 +118,7 @@ class DirectSolver::Impl {
     entries_.resize(cols_.size());
   }
 
-  /// Within a row UMFPACK wants ascending columns; local numbering has the ghosts last.
+  /// Within a row LU wants ascending columns; local numbering has the ghosts last.
   void append_block_row(const long* columns, long size, long first) {
     std::vector<long> order(size);
     std::iota(order.begin(), order.end(), 0);
@@ -136,77 +129,45 @@ class DirectSolver::Impl {
           cols_.push_back(columns[k] * block_ + c);
           source_.push_back(((first + k) * block_ + r) * block_ + c);
         }
-      row_ptr_.push_back(static_cast<Long>(cols_.size()));
+      row_ptr_.push_back(static_cast<long>(cols_.size()));
     }
   }
 
   void fill(const std::vector<double>& blocks) {
     for (std::size_t e = 0; e < entries_.size(); ++e) entries_[e] = blocks[source_[e]];
     if (pinned_ < 0) return;
-    for (Long e = row_ptr_[pinned_]; e < row_ptr_[pinned_ + 1]; ++e)
+    for (long e = row_ptr_[pinned_]; e < row_ptr_[pinned_ + 1]; ++e)
       entries_[e] = cols_[e] == pinned_ ? 1 : 0;
   }
 
-  [[nodiscard]] Long n() const { return static_cast<Long>(row_ptr_.size()) - 1; }
-
-  // UMFPACK stores by columns; our rows are the columns of the transpose, so the transpose is factored and
-  // solved with UMFPACK_At.
-  int analyse_on_root() {
-    umfpack_dl_defaults(control_);
-    control_[UMFPACK_IRSTEP] = 0;  // GMRES around it does the refinement
-    // The pattern is symmetric and the diagonal is no zero (stabilisation), so pivots may be taken from it:
-    // that halves the fill. CHOLMOD's ordering is AMD in the plane and METIS where AMD would fill in.
-    control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-    control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_CHOLMOD;
-    umfpack_dl_free_symbolic(&symbolic_);
-    return static_cast<int>(
-        umfpack_dl_symbolic(n(), n(), row_ptr_.data(), cols_.data(), nullptr, &symbolic_, control_, nullptr));
-  }
-
-  int factor_on_root() {
-    double info[UMFPACK_INFO];
-    umfpack_dl_free_numeric(&numeric_);
-    const auto status = umfpack_dl_numeric(row_ptr_.data(), cols_.data(), entries_.data(), symbolic_,
-                                           &numeric_, control_, info);
-    cost_ = {info[UMFPACK_FLOPS], info[UMFPACK_LNZ] + info[UMFPACK_UNZ],
-             info[UMFPACK_PEAK_MEMORY] * info[UMFPACK_SIZE_OF_UNIT]};
-    return static_cast<int>(status);
-  }
-
-  void solve_on_root(const double* b, double* x) const {
-    umfpack_dl_solve(UMFPACK_At, row_ptr_.data(), cols_.data(), entries_.data(), x, b, numeric_, control_,
-                     nullptr);
-  }
-
-  void check(int status, const std::string& what) {
-    MPI_Bcast(&status, 1, MPI_INT, 0, comm_.handle());
+  /// Throws on all ranks what root says.
+  void check(const std::string& reason, const std::string& what) {
+    cost_ = lu_->cost();
     MPI_Bcast(&cost_, 3, MPI_DOUBLE, 0, comm_.handle());
-    if (status == UMFPACK_OK) return;
+    const std::vector<char> said =
+        comm_.all_gather(is_root() ? std::vector<char>(reason.begin(), reason.end()) : std::vector<char>{});
+    if (said.empty()) return;
     ready_ = false;
     pattern_.reset();
-    std::string reason = "UMFPACK status " + std::to_string(status);
-    if (status == UMFPACK_WARNING_singular_matrix) reason = "the matrix is singular";
-    if (status == UMFPACK_ERROR_out_of_memory) reason = "out of memory";
-    if (status == UMFPACK_ERROR_invalid_matrix) reason = "the matrix has an invalid pattern";
-    throw Error(ExitCode::linear_solver, "direct solver: " + what + " failed: " + reason +
+    throw Error(ExitCode::linear_solver, "direct solver: " + what +
+                                             " failed: " + std::string(said.begin(), said.end()) +
                                              "; expected a regular matrix that fits into memory");
   }
 
+  Work work_;
+  std::unique_ptr<Lu> lu_;
   std::shared_ptr<const Pattern> pattern_;
   Communicator comm_;
   int block_ = 0;
   long pinned_ = -1;
   bool ready_ = false;
   Gatherer block_values_, vector_;
-  std::vector<Long> row_ptr_, cols_, source_;
+  std::vector<long> row_ptr_, cols_, source_;
   std::vector<double> entries_;
-  double control_[UMFPACK_CONTROL];
-  void* symbolic_ = nullptr;
-  void* numeric_ = nullptr;
   Cost cost_;
 };
 
-DirectSolver::DirectSolver() : impl_(std::make_unique<Impl>()) {}
+DirectSolver::DirectSolver(Work work) : impl_(std::make_unique<Impl>(work)) {}
 DirectSolver::~DirectSolver() = default;
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
