@@ -237,6 +237,17 @@ TEST(ThinSheet, IsInPlaneStress) {
   EXPECT_NEAR(A(1, 2), 0.02, 1e-12);
 }
 
+/// Newton's method for the director takes steps that would turn the sheet inside out, were they not limited.
+TEST(ThinSheet, FindsItsThicknessAtLargeStretches) {
+  const ThinSheet<NeoHookean> law(NeoHookean(Lame::from_young(1.0, 0.4)), {0.0, 0.0, 1.0}, 0.05, 0.3);
+  const Vec<double, 3> X = {0.0, 0.0, 0.0}, N = {0.0, 0.0, 1.0};
+  for (double stretch : {0.5, 1.5, 2.5}) {
+    const Mat<double, 3> F = {stretch, 0.0, 0.0, 0.0, stretch, 0.0, 0.0, 0.0, 1.0 / (stretch * stretch)};
+    const auto PN = law.first_piola(F, X) * N;
+    EXPECT_NEAR(PN[2], 0.0, 1e-9) << stretch;
+  }
+}
+
 TEST(ThinSheet, RefusesWhatIsNoSheet) {
   const NeoHookean law(Lame{1.3, 2.1});
   EXPECT_THROW(ThinSheet<NeoHookean>(law, {0.0, 2.0, 0.0}, 1.0, 1.0), Error);

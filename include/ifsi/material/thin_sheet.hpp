@@ -97,14 +97,18 @@ class ThinSheet {
   /// F Q + d (x) N with the director of least energy, by Newton's method from the unit normal.
   template <class T, int n, int dim>
   [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
-    using std::sqrt;
+    using std::min, std::sqrt;
     const Mat<T, n> F_Q = F * in_plane(N);
     Vec<T, n> d = transpose(inverse(F)) * N;
     d = T(1.0 / sqrt(dot(d, d))) * d;
-    constexpr int iterations = 8;  // quadratic: round-off after 4 at strains of 10 %
+    constexpr int iterations = 10;  // quadratic: round-off after 4 at strains of 10 %
     for (int k = 0; k < iterations; ++k) {
       const Mat<T, n> F_d = F_Q + outer(d, N);
-      d = d - inverse(normal_stiffness(law_.tangent(F_d, X), N)) * (law_.first_piola(F_d, X) * N);
+      const Vec<T, n> step =
+          inverse(normal_stiffness(law_.tangent(F_d, X), N)) * (law_.first_piola(F_d, X) * N);
+      // By half of its length at most, so that no stretch of the plane turns the sheet inside out.
+      const T part = min(T(1.0), T(0.5 * sqrt(dot(d, d) / (dot(step, step) + 1e-300))));
+      d = d - part * step;
     }
     return F_Q + outer(d, N);
   }

@@ -16,7 +16,7 @@ namespace ifsi {
 struct ValveOptions {
   static constexpr double z_inlet = -4.0;
 
-  std::string model = "sector", curve, law = "sheet";
+  std::string model = "sector", curve, law = "volume";
   double sheet_shear = 0.05, sheet_kappa = 0.3;
   AorticRoot root;
   Leaflet leaflet;
@@ -61,8 +61,8 @@ struct ValveOptions {
     params.add("solid.rho", rho_s, "g/cm^3", "density of the leaflets", positive);
     params.add("solid.E", E, "dyn/cm^2", "Young's modulus", positive);
     params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
-    params.add_choice("solid.law", law, {"sheet", "volume"},
-                      "the leaflets in plane stress across their thickness, or as a volume");
+    params.add_choice("solid.law", law, {"volume", "sheet"},
+                      "the leaflets as a volume, or in plane stress across their thickness");
     params.add("solid.sheet_shear", sheet_shear, "E", "stiffness of a sheet against transverse shear",
                {1e-6, 1.0});
     params.add("solid.sheet_kappa", sheet_kappa, "E", "stiffness of a sheet against change of volume",
