@@ -2,6 +2,7 @@
 /// \file
 /// Laws of thin bodies: plane stress, and next to no stiffness against transverse shear.
 
+#include <algorithm>
 #include <array>
 
 #include "ifsi/material/moduli.hpp"

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -147,6 +148,8 @@ void attach(Run& run, FsiProblem<Element, Body, Model>& problem) {
   attach<FsiProblem<Element, Body, Model>>(run, problem);  // the one above it in flow_case.hpp
   if (const auto n = problem.interpolation().lost().size(); n > 0)
     run.log(std::to_string(n) + " solid nodes lie outside of the fluid mesh and are held at their place");
+  if (const auto& contact = problem.solids().contact())
+    run.log("contact: surfaces repel from a distance of " + std::to_string(contact->range()) + " on");
   if (const std::string warning = coarse_solid_warning(problem.ratio().ratio); !warning.empty())
     run.log(warning);
 }
@@ -203,6 +206,7 @@ struct FsiExtremes {
   double area_change = 0.0, det_F_min = 1.0, mesh_ratio = 0.0;
   double s1_p99 = 0.0;  ///< of the largest principal stress, over 99 % of the volume (eq. 30)
   int lost = 0;
+  double contact_gap = std::numeric_limits<double>::infinity();  ///< least distance of surfaces in contact
 
   template <class Problem>
   SolidTotals<Problem::dim> observe(const Problem& problem) {
@@ -212,6 +216,8 @@ struct FsiExtremes {
     s1_p99 = std::max(s1_p99, volume_quantile(problem.solids().principal_samples().stress, 0.99));
     mesh_ratio = std::max(mesh_ratio, problem.ratio().ratio);
     lost = std::max(lost, static_cast<int>(problem.interpolation().lost().size()));
+    if (problem.solids().contact())
+      contact_gap = std::min(contact_gap, problem.solids().contact_totals().gap);
     return totals;
   }
   void report(Run& run) const {
@@ -220,6 +226,7 @@ struct FsiExtremes {
     run.metric("s1_p99", s1_p99, "force/area");
     run.metric("mesh_ratio_max", mesh_ratio);
     run.metric("lost_nodes_max", lost);
+    if (std::isfinite(contact_gap)) run.metric("contact_gap_min", contact_gap, "length");
     if (mesh_ratio > 1.0) run.log(coarse_solid_warning(mesh_ratio));
   }
 };
@@ -249,6 +256,7 @@ class TipHistory {
                                    {"kinetic_energy", "energy/length"},
                                    {"det_f_min", "-"},
                                    {"dt", "s"}};
+    if (problem.solids().contact()) columns.push_back({"contact_energy", "energy/length"});
     for (const auto& further : {Balances<Problem>::columns(), more})
       columns.insert(columns.end(), further.begin(), further.end());
     csv_ = run.csv("history.csv", columns, problem.time());
@@ -269,6 +277,7 @@ class TipHistory {
                                totals.kinetic_energy,
                                totals.deformation.min_det_F,
                                dt};
+    if (problem_.solids().contact()) row.push_back(problem_.solids().contact_totals().energy);
     for (const auto& further : {balances_.observe(dt), more})
       row.insert(row.end(), further.begin(), further.end());
     csv_.row(row);

@@ -101,6 +101,10 @@ class ImmersedSolids {
     contact_.emplace(surface_points(), range, pressure);
   }
   [[nodiscard]] const std::optional<SurfaceContact<dim>>& contact() const { return contact_; }
+  /// Energy and least distance of the contacts at the last completed level.
+  [[nodiscard]] typename SurfaceContact<dim>::Totals contact_totals() const {
+    return contact_->totals(points(u_old_, X_));
+  }
   void add_plane(const ContactPlane<dim>& plane) { contact_->add_plane(plane); }
   /// Finds the contacts for the level where the equations hold; says whether cells() has changed.
   bool update_contact() {
