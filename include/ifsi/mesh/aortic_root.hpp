@@ -20,7 +20,7 @@ namespace ifsi {
 struct AorticRoot {
   double radius = 1.4;      ///< of the straight vessel
   double height = 2.4;      ///< of the root, from the nadirs to the end of the sinuses
-  double commissure = 0.8;  ///< height of the attachment lines at the commissures
+  double commissure = 1.2;  ///< height of the attachment lines at the commissures
   double lobe = 0.3;        ///< depth of a sinus over the radius
 
   static constexpr double third = 2.0 * std::numbers::pi / 3.0;

@@ -24,7 +24,7 @@ struct Leaflet {
   double thickness = 0.015;  ///<
   double gap = 0.03;         ///< distance of the free edge from the planes of the commissures
   double rounding = 0.1;     ///< of the free edge: half the width of the hyperbola's middle
-  double belly = 0.05;       ///< sag towards the ventricle in the middle of the leaflet
+  double belly = 0.1;        ///< sag towards the ventricle in the middle of the leaflet
   double protrusion = 0.05;  ///< of the attached edges into the wall
 };
 

@@ -16,7 +16,7 @@ namespace ifsi {
 struct ValveOptions {
   static constexpr double z_inlet = -4.0;
 
-  std::string model = "sector", curve, law = "volume";
+  std::string model = "sector", drive = "flow", curve, law = "volume";
   double sheet_shear = 0.05, sheet_kappa = 0.3;
   AorticRoot root;
   Leaflet leaflet;
@@ -69,7 +69,8 @@ struct ValveOptions {
                {1e-6, 1e3});
     params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
     params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);
-    params.add("inlet.curve", curve, "", "CSV file of the flow over time (default: data/curves)");
+    params.add_choice("inlet.drive", drive, {"flow", "pressure"}, "what is prescribed at the inlet");
+    params.add("inlet.curve", curve, "", "CSV file of it over time (default: data/curves)");
     params.add("outlet.backflow", backflow, "-", "backflow stabilisation (eq. 11)", {0.0, 1.0});
     params.add("metrics.z_before", z_before, "cm", "section of the pressure before the valve");
     params.add("metrics.z_behind", z_behind, "cm", "section of the pressure behind the valve");
@@ -81,6 +82,10 @@ struct ValveOptions {
   /// How many of what is computed make a whole valve.
   [[nodiscard]] double copies() const { return is_sector() ? 6.0 : 1.0; }
   [[nodiscard]] double z_outlet() const { return root.height + downstream; }
+
+  [[nodiscard]] std::string curve_file(const std::string& data) const {
+    return curve.empty() ? data + "/curves/aortic_" + drive + ".csv" : curve;
+  }
 
   /// \throws Error (configuration) for a sector that is not cut along planes of symmetry.
   void check() const {

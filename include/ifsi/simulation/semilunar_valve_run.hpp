@@ -47,9 +47,15 @@ double plug_area(const Mesh<Element>& mesh) {
   return -boundary_flux<Cartesian>(mesh, mesh.boundary("inlet"), u);
 }
 
-inline FlowBoundary<3> valve_boundary(const ValveOptions& o, const FlowCurve& flow, double area) {
+/// \param curve flow or pressure at the inlet; \param area that the plug flow sees
+inline FlowBoundary<3> valve_boundary(const ValveOptions& o, const FlowCurve& curve, double area) {
   FlowBoundary<3> boundary;
-  boundary.velocity("inlet", [=](const auto&, double t) { return Vec<double, 3>{0.0, 0.0, flow(t) / area}; });
+  if (o.drive == "flow")
+    boundary.velocity("inlet", [=](const auto&, double t) {
+      return Vec<double, 3>{0.0, 0.0, curve(t) / area};
+    });
+  else
+    boundary.pressure("inlet", curve), boundary.backflow("inlet", o.backflow);
   boundary.traction_free("outlet"), boundary.backflow("outlet", o.backflow);
   if (o.is_sector()) boundary.slip("cut_0"), boundary.slip("cut_1");
   boundary.no_slip("wall");
@@ -153,10 +159,10 @@ template <class SolidElement, class Formulation, class Law>
 void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& data, const Law& law) {
   using Body = SolidBody<SolidElement, Law, Formulation>;
   using Problem = FsiProblem<Tet1, Body>;
-  const FlowCurve flow(o.curve.empty() ? data + "/curves/aortic_flow.csv" : o.curve);
-  if (flow.begin() > 0.0 || flow.end() < o.time.end)
-    throw Error(ExitCode::configuration, "inlet.curve covers " + std::to_string(flow.begin()) + " to " +
-                                             std::to_string(flow.end()) +
+  const FlowCurve curve(o.curve_file(data));
+  if (curve.begin() > 0.0 || curve.end() < o.time.end)
+    throw Error(ExitCode::configuration, "inlet.curve covers " + std::to_string(curve.begin()) + " to " +
+                                             std::to_string(curve.end()) +
                                              " s; expected 0 to time.end = " + std::to_string(o.time.end));
   const auto mesh = distribute(vessel_mesh(run, o, data + "/geometry/vessel.geo"), run.comm());
   const SolidParameters<3> solid{
@@ -170,7 +176,7 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
     free_edges.push_back(std::move(leaflet.free_edge));
   }
   constexpr bool may_protrude = true;
-  Problem problem(mesh, valve_boundary(o, flow, o.copies() * plug_area(mesh)), o.rho_f, Newtonian{o.mu},
+  Problem problem(mesh, valve_boundary(o, curve, o.copies() * plug_area(mesh)), o.rho_f, Newtonian{o.mu},
                   std::move(leaflets), o.flow, o.fsi, may_protrude);
   check_protrusion(run, problem, o.protrusion_max);
   attach(run, problem);
