@@ -3,7 +3,7 @@
 
 layers      an include goes downwards only, and no include cycle exists
 standard    a header, or one of ours that it includes, includes what it takes from the standard library
-libraries   hypre, METIS, SuiteSparse, fmt, toml++, CLI11 and zlib stay out of the public headers
+libraries   hypre, METIS, SuiteSparse, MUMPS, fmt, toml++, CLI11 and zlib stay out of the public headers
 equations   every `(eq. N)` cited in a source or document is defined, once, in docs/equations.md
 functions   none over 80 lines, and half of them at most 10; no driver over 80 lines
 links       every relative link of the documents leads somewhere
@@ -32,7 +32,7 @@ LAYERS = {
     "simulation": "core element material time linalg quadrature fluid solid mesh coupling assembly io",
 }
 HIDDEN_LIBRARIES = re.compile(
-    r"(HYPRE|_hypre|metis|umfpack|cholmod|klu|amd|SuiteSparse|suitesparse/|hypre/|fmt/|toml\+\+|CLI/|zlib)")
+    r"(HYPRE|_hypre|metis|umfpack|[sd]mumps|cholmod|klu|amd|SuiteSparse|suitesparse/|hypre/|fmt/|toml\+\+|CLI/|zlib)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 # What headers may take from the standard library, where precompiled headers hide from the compiler what is missing.
 STANDARD = {
