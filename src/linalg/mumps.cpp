@@ -4,6 +4,8 @@
 #include <dmumps_c.h>
 #include <metis.h>
 
+#include <algorithm>
+#include <exception>
 #include <numeric>
 #include <vector>
 #endif
@@ -30,7 +32,10 @@ class Mumps final : public Lu {
   }
   Mumps(const Mumps&) = delete;
   Mumps& operator=(const Mumps&) = delete;
-  ~Mumps() override { call(-2); }
+  ~Mumps() override {
+    // Collective: where one rank alone fails it must not wait for the others, and all end soon.
+    if (std::uncaught_exceptions() == 0) call(-2);
+  }
 
   std::string analyse(const LuMatrix& matrix) override {
     if (root_) {
