@@ -437,6 +437,8 @@ TEST(FsiProblem, ContactHoldsBodiesApart) {
              shared = distribute(global, Communicator());
   Probed with = bent_together(shared, 3.0), same = bent_together(alone, 3.0),
          without = bent_together(shared, 0.0);
+  // The upper beam also feels a plane below it; the lower one begins within its range.
+  for (Probed* problem : {&with, &same}) problem->add_contact_plane({{0.0, 0.42}, {0.0, 1.0}, false});
   for (int k = 0; k < 10; ++k)
     for (Probed* problem : {&with, &same, &without}) {
       const StepReport report = problem->step(0.03);
@@ -451,6 +453,7 @@ TEST(FsiProblem, ContactHoldsBodiesApart) {
   EXPECT_GT(gap(with), 0.11);
   EXPECT_LT(gap(without), 0.093);
   EXPECT_GT(contact.energy, 0.0);
+  EXPECT_GT(with.solids().contact()->singles().size(), 0u);
   EXPECT_NEAR(contact.gap, gap(with), 1e-12);
   EXPECT_LT(tangent_error(with), 2e-4);
 }
