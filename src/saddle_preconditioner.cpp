@@ -71,6 +71,9 @@ class SaddlePreconditioner<B>::Impl {
  private:
   /// Largest viscous number at which ILU(0) is the faster solver and stays within 25 iterations.
   static constexpr double viscous_limit = dim == 2 ? 0.7 : 1.0;
+  /// Weight of M in M + L in steady flow, where nothing else than (M + L)^-1 is in S^-1: M + L is 1 to 1.6
+  /// times S for short waves, this puts S into the middle of that.
+  static constexpr double steady_mass = 0.8;
   static AmgOptions amg_options() { return {.strong_threshold = dim == 2 ? 0.25 : 0.5}; }
   /// Aggressive coarsening doubles the iterations where grad-div couples the components. A second cycle pays
   /// where one of them is what limits the iterations.
@@ -131,7 +134,9 @@ class SaddlePreconditioner<B>::Impl {
       const int diagonal = K.find(i, i);
       local_factor_[i] = std::max(0.0, 1 - *local.at(diagonal) / *parts.laplacian.at(diagonal));
     }
-    for (std::size_t k = 0; k < local.values.size(); ++k) local.values[k] += parts.mass.values[k];
+    const double mass_factor = steady_ ? steady_mass : 1;
+    for (std::size_t k = 0; k < local.values.size(); ++k)
+      local.values[k] += mass_factor * parts.mass.values[k];
     local_part_.update(local);
   }
 

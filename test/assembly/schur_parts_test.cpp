@@ -88,9 +88,9 @@ TYPED_TEST(SchurPartsOf, SteadyFlowHasNoViscousLimit) {
   EXPECT_NEAR(energy, flow.area / flow.fluid.rho, 1e-12);
 }
 
-TEST(SchurParts, TheViscousNumberCountsNodesNotCells) {
+TEST(SchurParts, TheViscousNumberIsStricterForOrderTwo) {
   const double nu = 0.2 / 3.0, c = 5.0, h = 0.25;
   EXPECT_NEAR(UniformFlow<Quad1>({1.0, 0.0}, c).parts.viscous_number, nu / (c * h * h), 1e-12);
-  EXPECT_NEAR(UniformFlow<Quad2>({1.0, 0.0}, c).parts.viscous_number, 4.0 * nu / (c * h * h), 1e-12);
+  EXPECT_NEAR(UniformFlow<Quad2>({1.0, 0.0}, c).parts.viscous_number, 16.0 * nu / (c * h * h), 1e-12);
 }
 }  // namespace

@@ -19,8 +19,8 @@ struct SchurParts {
   BlockCsr<1> laplacian;
   /// C: int q rho v . grad p / (m rho c), with the same 1 / (rho c) as in N. Left empty: no convection.
   BlockCsr<1> convection{};
-  /// Max over the cells of mu / (rho c h^2), h the distance of neighbouring nodes: how far the velocity block
-  /// is from a mass matrix. Infinite in steady flow.
+  /// Max over the cells of mu / (rho c h^2): how far the velocity block is from a mass matrix. h is the
+  /// distance of neighbouring nodes, half of it in cells of order 2. Infinite in steady flow.
   double viscous_number = 0;
   bool steady = false;  ///< no inertia: N^-1 alone is not part of S^-1
 };
