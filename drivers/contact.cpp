@@ -19,7 +19,7 @@ using namespace ifsi;
 
 void contact(Run& run) {
   ContactOptions o;
-  o.time.dt = 2e-3, o.time.end = 0.4, o.flow.rho_inf = 0.0, o.fsi.contact_range = 2.0;
+  o.time.dt = 3e-3, o.time.end = 0.6, o.flow.rho_inf = 0.0, o.fsi.contact_range = 3.0;
   o.declare(run.params);
   run.parse();
   if (o.fsi.contact_pressure == 0.0) o.fsi.contact_pressure = o.load;

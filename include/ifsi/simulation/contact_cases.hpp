@@ -18,8 +18,8 @@ namespace ifsi {
 struct ContactOptions {
   std::string scene = "valve";
   int n = 32, n_s = 32;  ///< fluid cells per cm, solid cells along a leaflet or along a quarter of a disc
-  double rho = 1.0, mu = 0.1, density_ratio = 1.0, E = 1e6, nu = 0.4;
-  double load = 300.0, ramp = 0.05, longer = 0.0, slant = 1.0, offset = 0.03, picture_every = 0.02;
+  double rho = 1.0, mu = 0.1, density_ratio = 1.0, E = 4e5, nu = 0.4;
+  double load = 100.0, ramp = 0.05, longer = 0.0, slant = 1.6, offset = 0.03, picture_every = 0.02;
   bool symmetry = false;
   TimeOptions time;
   FlowOptions flow;
