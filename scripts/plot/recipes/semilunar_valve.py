@@ -52,11 +52,9 @@ def whole_leaflets(run, grid, value):
 
 
 def moments(run, n=6):
-    """Frames in and after systole, evenly."""
+    """Frames until the flow has turned, evenly."""
     times = [t for t, _ in run.fields("fluid")]
-    history = run.table("history")
-    last = min(times[-1], 0.36) if times[-1] < 0.99 else 0.36
-    wanted = numpy.linspace(times[0], last, n + 1)[1:] if history is not None else times[-n:]
+    wanted = numpy.linspace(0, min(times[-1], 0.36), n + 1)[1:] if times else []
     return sorted({figures.fluid_at(run, t) for t in wanted})
 
 
@@ -75,8 +73,7 @@ def jet(run, axis, frame, top):
 def leaflets(run, axis, frame, top):
     grid = vtu.read(run.fields("solid")[frame][1])
     points, value = whole_leaflets(run, grid, grid.point_data["principal_stress_1"])
-    colours = matplotlib.colormaps["inferno"](numpy.clip(value / top, 0, 1)) \
-        if hasattr(matplotlib, "colormaps") else pyplot.get_cmap("inferno")(numpy.clip(value / top, 0, 1))
+    colours = pyplot.get_cmap("inferno")(numpy.clip(value / top, 0, 1))
     axis.add_collection3d(Poly3DCollection(points, facecolors=colours, edgecolors="0.3", linewidths=0.1))
     axis.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), zlim=(0, 1.8))
     axis.set_box_aspect((1, 1, 0.75))
@@ -85,6 +82,12 @@ def leaflets(run, axis, frame, top):
 
 
 def draw(run):
+    history = run.table("history")
+    if history is not None:
+        panels = [("flow [cm^3/s]", "flow", 1), ("orifice area [cm^2]", "goa", 1),
+                  ("pressure drop [mmHg]", "pressure_drop", 1333.22)]
+        figures.against(run, "curves", [("t [s]", label, [(history["t"], history[column] / unit, "ifsi", "-")])
+                                        for label, column, unit in panels])
     frames = moments(run)
     if not frames:
         return
