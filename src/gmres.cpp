@@ -26,6 +26,8 @@ double dot(const double* x, const double* y, long n) {
 }
 
 /// One solve: Krylov basis V, preconditioned directions Z, and the small least-squares problem R y = g.
+/// B is the number of unknowns per node where that is known to the compiler, else 0.
+template <int B>
 class Fgmres {
  public:
   Fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& P, const GmresOptions& options)
@@ -58,15 +60,25 @@ class Fgmres {
   }
 
  private:
+  [[nodiscard]] int block() const { return B > 0 ? B : block_; }
+
+  /// visit(i, c) for every owned number i, which is component c of its node.
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (long i = 0; i < n_; i += block())
+      for (int c = 0; c < block(); ++c) visit(i + c, c);
+  }
+
   void compute_residual(const double* b, double* x) {
     A_(x, residual_.data());
     for (long i = 0; i < n_; ++i) residual_[i] = b[i] - residual_[i];
   }
 
   [[nodiscard]] BlockNorms norms(const double* r) const {
+    std::vector<double> squares(block(), 0.0);
+    for_each_entry([&](long i, int c) { squares[c] += r[i] * r[i]; });
     double sums[2] = {0, 0};
-    for (long i = 0; i < n_; i += block_)
-      for (int c = 0; c < block_; ++c) sums[c == options_.mass_component] += r[i + c] * r[i + c];
+    for (int c = 0; c < block(); ++c) sums[c == options_.mass_component] += squares[c];
     comm_.sum_in_place(sums, 2);
     check_finite(sums[0] + sums[1]);
     return {std::sqrt(sums[0]), std::sqrt(sums[1])};
@@ -92,7 +104,7 @@ class Fgmres {
     const double mass = std::max(r.mass, floor * r.momentum * options_.mass_per_momentum);
     report_.target = {std::max(goal.relative.momentum * momentum, goal.absolute.momentum),
                       std::max(goal.relative.mass * mass, goal.absolute.mass)};
-    reference_.assign(block_, std::max(report_.target.momentum, tiny));
+    reference_.assign(block(), std::max(report_.target.momentum, tiny));
     if (options_.mass_component >= 0)
       reference_[options_.mass_component] = std::max(report_.target.mass, tiny);
   }
@@ -118,7 +130,7 @@ class Fgmres {
     const int m = std::min(options_.restart, options_.max_iterations - report_.iterations);
     R_.clear();
     rotations_.clear();
-    for (long i = 0; i < n_; ++i) residual_[i] /= reference_[i % block_];
+    for_each_entry([&](long i, int c) { residual_[i] /= reference_[c]; });
     g_.assign(1, std::sqrt(sum_of_squares(residual_)));
     scale_into(0, residual_, 1 / g_[0]);
     std::copy_n(V_[0].begin(), n_, residual_.begin());
@@ -142,11 +154,14 @@ class Fgmres {
     const int k = static_cast<int>(R_.size());
     if (static_cast<int>(Z_.size()) <= k) Z_.emplace_back(n_local_);
     // Any scale of z_k will do; numbers near one suit preconditioners in single precision.
-    const double scale = 1 / *std::max_element(reference_.begin(), reference_.end());
-    for (long i = 0; i < n_; ++i) work_[i] = scale * V_[k][i] * reference_[i % block_];
+    const double largest = *std::max_element(reference_.begin(), reference_.end());
+    std::vector<double> in(reference_), out(reference_);
+    for (double& factor : in) factor /= largest;
+    for (double& factor : out) factor = 1 / factor;
+    for_each_entry([&](long i, int c) { work_[i] = V_[k][i] * in[c]; });
     P_(work_.data(), Z_[k].data());
     A_(Z_[k].data(), work_.data());
-    for (long i = 0; i < n_; ++i) work_[i] /= reference_[i % block_];
+    for_each_entry([&](long i, int c) { work_[i] *= out[c]; });
     ++report_.iterations;
     std::vector<double> h(k + 2, 0.0);
     const double size = orthogonalise(k + 1, h);
@@ -224,7 +239,7 @@ class Fgmres {
     const BlockNorms q = norms(residual_.data());
     const double g = std::abs(g_[k + 1]);
     const double mass_reference = reference_[std::max(options_.mass_component, 0)];
-    const double momentum_reference = reference_[options_.mass_component == 0 ? block_ - 1 : 0];
+    const double momentum_reference = reference_[options_.mass_component == 0 ? block() - 1 : 0];
     update_report({g * q.momentum * momentum_reference, g * q.mass * mass_reference});
   }
 
@@ -273,7 +288,14 @@ double SolverReport::decades() const {
 
 SolverReport fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& preconditioner,
                     const double* b, double* x, const GmresOptions& options) {
-  return Fgmres(layout, block, A, preconditioner, options).solve(b, x);
+  switch (block) {
+    case 3:
+      return Fgmres<3>(layout, block, A, preconditioner, options).solve(b, x);
+    case 4:
+      return Fgmres<4>(layout, block, A, preconditioner, options).solve(b, x);
+    default:
+      return Fgmres<0>(layout, block, A, preconditioner, options).solve(b, x);
+  }
 }
 
 }  // namespace ifsi
