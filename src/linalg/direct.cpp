@@ -77,6 +77,7 @@ class DirectSolver::Impl {
 
   [[nodiscard]] bool ready() const { return ready_; }
   [[nodiscard]] const Cost& cost() const { return cost_; }
+  [[nodiscard]] bool is_shared() const { return work_ == Work::shared && has_mumps(); }
 
  private:
   [[nodiscard]] bool is_root() const { return comm_.is_root(); }
@@ -93,8 +94,7 @@ class DirectSolver::Impl {
   }
 
   [[nodiscard]] std::unique_ptr<Lu> make_lu() const {
-    auto lu = work_ == Work::shared ? make_mumps(comm_) : nullptr;
-    return lu ? std::move(lu) : make_umfpack(comm_);
+    return is_shared() ? make_mumps(comm_) : make_umfpack(comm_);
   }
 
   /// Root builds the scalar rows of the whole matrix; source_ says where in the gathered blocks each entry
@@ -178,6 +178,9 @@ void DirectSolver::factor(std::shared_ptr<const Pattern> pattern, int block, std
 }
 void DirectSolver::apply(const double* b, double* x) const { impl_->apply(b, x); }
 bool DirectSolver::ready() const { return impl_->ready(); }
+std::string DirectSolver::method() const {
+  return impl_->is_shared() ? "MUMPS, shared by all ranks" : "UMFPACK, on one rank";
+}
 const DirectSolver::Cost& DirectSolver::cost() const { return impl_->cost(); }
 
 }  // namespace ifsi

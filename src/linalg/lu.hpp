@@ -34,7 +34,8 @@ class Lu {
 };
 
 std::unique_ptr<Lu> make_umfpack(const Communicator& comm);
-/// Null where MUMPS was not found when ifsi was built.
+/// Whether MUMPS was found when ifsi was built; make_mumps() is null without.
+bool has_mumps();
 std::unique_ptr<Lu> make_mumps(const Communicator& comm);
 
 }  // namespace ifsi

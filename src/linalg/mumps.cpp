@@ -127,8 +127,10 @@ class Mumps final : public Lu {
 
 }  // namespace
 
+bool has_mumps() { return true; }
 std::unique_ptr<Lu> make_mumps(const Communicator& comm) { return std::make_unique<Mumps>(comm); }
 #else
+bool has_mumps() { return false; }
 std::unique_ptr<Lu> make_mumps(const Communicator&) { return nullptr; }
 #endif
 

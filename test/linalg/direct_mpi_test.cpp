@@ -90,6 +90,11 @@ TEST(DirectSolver, SaysThatAMatrixIsSingular) {
   EXPECT_FALSE(solver.ready());
 }
 
+TEST(DirectSolver, SaysWhoWorks) {
+  EXPECT_EQ(DirectSolver().method(), "UMFPACK, on one rank");
+  EXPECT_NE(DirectSolver(shared).method().find("rank"), std::string::npos);
+}
+
 TEST(DirectSolver, KnowsItsCost) {
   for (auto work : {on_root, shared}) {
     test::StokesModel<2> model({.cells = 8});

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "ifsi/linalg/block_csr.hpp"
 
@@ -44,6 +45,8 @@ class DirectSolver {
   void apply(const double* b, double* x) const;
 
   [[nodiscard]] bool ready() const;
+  /// Which library, and where.
+  [[nodiscard]] std::string method() const;
   [[nodiscard]] const Cost& cost() const;
   /// The factorisation in units of an application: measured as 20 ns per entry and 7 Gflop/s against 2.6 ns
   /// per entry and solve (2D 3k .. 200k unknowns: 16 to 32).

@@ -77,6 +77,8 @@ class PatchedSolver {
   /// The fluid's set-up fits no longer (another time step).
   void invalidate() { reuse_.invalidate(); }
   [[nodiscard]] long patch_unknowns() const { return patch_ ? patch_->layout.n_global() * B : 0; }
+  /// Who factors the patch.
+  [[nodiscard]] std::string patch_method() const { return patch_lu_.method(); }
   /// Of the last solve.
   [[nodiscard]] const BlockCsr<B>& patch_matrix() const { return patch_matrix_; }
   [[nodiscard]] int setups() const { return n_setups_; }

@@ -146,6 +146,7 @@ class FsiPictures {
 template <class Element, class Body, class Model>
 void attach(Run& run, FsiProblem<Element, Body, Model>& problem) {
   attach<FsiProblem<Element, Body, Model>>(run, problem);  // the one above it in flow_case.hpp
+  run.log("LU of the unknowns around the solid: " + problem.linear_solver().patch_method());
   if (const auto n = problem.interpolation().lost().size(); n > 0)
     run.log(std::to_string(n) + " solid nodes lie outside of the fluid mesh and are held at their place");
   if (const auto& contact = problem.solids().contact())
