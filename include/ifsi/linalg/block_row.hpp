@@ -32,18 +32,15 @@ struct BlockRow<T, 4> {
   Register sum[4] = {};
 
   void add(const T* K, const T* x) {
-    const Register xj = load(x);
-    for (int r = 0; r < 4; ++r) sum[r] += load(K + 4 * r) * xj;
+    Register xj, row;
+    std::memcpy(&xj, x, sizeof xj);
+    for (int r = 0; r < 4; ++r) {
+      std::memcpy(&row, K + 4 * r, sizeof row);
+      sum[r] += row * xj;
+    }
   }
   void store(T* y) const {
     for (int r = 0; r < 4; ++r) y[r] = (sum[r][0] + sum[r][1]) + (sum[r][2] + sum[r][3]);
-  }
-
- private:
-  static Register load(const T* p) {
-    Register v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
   }
 };
 
