@@ -104,6 +104,20 @@ class Reader(unittest.TestCase):
         self.assertEqual((list(table["t"]), list(table["kind"]), table["drag"][0]), ([0, 1], ["Q1", "Q2"], 1.5))
 
 
+class Surfaces(unittest.TestCase):
+    def test_two_triquadratic_hexahedra_share_a_face(self):
+        one = 0.5 * numpy.array(triangles.HEX27, dtype=float)
+        points, index = numpy.unique(numpy.concatenate([one, one + [1, 0, 0]]), axis=0, return_inverse=True)
+        quads = triangles.surface(vtu.Grid(points, {29: index.reshape(2, 27)}))
+        self.assertEqual(len(quads), 2 * 24 - 8)
+        self.assertAlmostEqual(sum(area(points, quads[:, k]) for k in ([0, 1, 2], [0, 2, 3])), 10.0)
+
+    def test_a_hexahedron_of_order_one(self):
+        points = 0.5 * numpy.array(triangles.HEX27[:8], dtype=float)
+        quads = triangles.surface(vtu.Grid(points, {12: numpy.arange(8)[None]}))
+        self.assertAlmostEqual(sum(area(points, quads[:, k]) for k in ([0, 1, 2], [0, 2, 3])), 6.0)
+
+
 class Triangles(unittest.TestCase):
     # VTK positions of the nodes of each cell type on the unit cell.
     TRIANGLE = [(0, 0), (1, 0), (0, 1), (.5, 0), (.5, .5), (0, .5)]
