@@ -4,11 +4,9 @@ namespace ifsi {
 
 void run_semilunar_valve(Run& run, const ValveOptions& options, const std::string& data) {
   const NeoHookean law(Lame::from_young(options.E, options.nu));
-  if (options.law == "volume") return run_semilunar_valve<Hex2, Displacement>(run, options, data, law);
+  if (!options.law.is_sheet()) return run_semilunar_valve<Hex2, Displacement>(run, options, data, law);
   const Vec<double, 3> unused = {0.0, 0.0, 1.0};  // each point has its own normal
-  run_semilunar_valve<Hex2, Sheet>(
-      run, options, data,
-      ThinSheet(law, unused, options.sheet_shear * options.E, options.sheet_kappa * options.E));
+  run_semilunar_valve<Hex2, Sheet>(run, options, data, options.law.sheet(law, unused));
 }
 
 }  // namespace ifsi

@@ -13,6 +13,7 @@
 #include "ifsi/simulation/balances.hpp"
 #include "ifsi/simulation/flow_case.hpp"
 #include "ifsi/simulation/fsi_problem.hpp"
+#include "ifsi/simulation/law_choice.hpp"
 #include "ifsi/simulation/probe.hpp"
 #include "ifsi/simulation/profiles.hpp"
 #include "ifsi/simulation/signal.hpp"
@@ -24,8 +25,7 @@ struct LeafletOptions {
   std::array<int, 2> n,
       n_s;  ///< fluid cells along and across the channel, solid cells through and along the leaflet
   double rho = 100.0, mu = 10.0, density_ratio = 1.0, thickness = 0.0212, picture_every = 0.1;
-  std::string law = "volume";
-  double sheet_shear = 0.05, sheet_kappa = 0.3;
+  LawChoice law;
   TimeOptions time;
   FlowOptions flow;
   FsiOptions fsi;
@@ -43,21 +43,14 @@ struct LeafletOptions {
     params.add("solid.density_ratio", density_ratio, "-", "density of the solid over the fluid's", positive);
     params.add("solid.thickness", thickness, "length", "thickness of the leaflet", positive);
     params.add("fluid.mu", mu, "mass/(length time)", "dynamic viscosity", positive);
-    params.add_choice("solid.law", law, {"volume", "sheet"},
-                      "the material as a volume, or its plane stress in a thin sheet");
-    params.add("solid.sheet_shear", sheet_shear, "E", "stiffness of a sheet against transverse shear",
-               {1e-6, 1.0});
-    params.add("solid.sheet_kappa", sheet_kappa, "E", "stiffness of a sheet against change of volume",
-               {1e-6, 1e3});
     params.add("output.every", picture_every, "time", "time between pictures", positive);
-    time.declare(params), flow.declare(params), fsi.declare(params);
+    law.declare(params), time.declare(params), flow.declare(params), fsi.declare(params);
   }
   /// Calls scene(law) with the law as it is or, for solid.law = sheet, that of an upright sheet of it.
   template <SolidLaw Law, class Scene>
   void with_law(const Law& volume, Scene&& scene) const {
-    if (law == "volume") return scene(volume);
-    const double E = volume.young_modulus();
-    scene(ThinSheet<Law>(volume, {1.0, 0.0, 0.0}, sheet_shear * E, sheet_kappa * E));
+    if (!law.is_sheet()) return scene(volume);
+    scene(law.sheet(volume, {1.0, 0.0, 0.0}));
   }
   /// Parameters of a solid that displaces this fluid.
   [[nodiscard]] SolidParameters<2> solid() const {

@@ -8,6 +8,7 @@
 #include "ifsi/io/run.hpp"
 #include "ifsi/mesh/leaflet.hpp"
 #include "ifsi/simulation/fsi_problem.hpp"
+#include "ifsi/simulation/law_choice.hpp"
 #include "ifsi/simulation/time_loop.hpp"
 
 namespace ifsi {
@@ -16,8 +17,8 @@ namespace ifsi {
 struct ValveOptions {
   static constexpr double z_inlet = -4.0;
 
-  std::string model = "sector", drive = "flow", curve, law = "volume";
-  double sheet_shear = 0.05, sheet_kappa = 0.3;
+  std::string model = "sector", drive = "flow", curve;
+  LawChoice law;
   AorticRoot root;
   Leaflet leaflet;
   double downstream = 11.8, angle = 60.0, h = 0.35, h_valve = 0.12, growth = 0.2, wall_ratio = 0.7;
@@ -61,12 +62,7 @@ struct ValveOptions {
     params.add("solid.rho", rho_s, "g/cm^3", "density of the leaflets", positive);
     params.add("solid.E", E, "dyn/cm^2", "Young's modulus", positive);
     params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
-    params.add_choice("solid.law", law, {"volume", "sheet"},
-                      "the leaflets as a volume, or in plane stress across their thickness");
-    params.add("solid.sheet_shear", sheet_shear, "E", "stiffness of a sheet against transverse shear",
-               {1e-6, 1.0});
-    params.add("solid.sheet_kappa", sheet_kappa, "E", "stiffness of a sheet against change of volume",
-               {1e-6, 1e3});
+    law.declare(params);
     params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
     params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);
     params.add_choice("inlet.drive", drive, {"flow", "pressure"}, "what is prescribed at the inlet");
