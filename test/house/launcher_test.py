@@ -84,6 +84,13 @@ class Launcher(unittest.TestCase):
         self.assertIn("mpirun as root: 1, threads 1\nranks 3", done.stdout)
         self.assertTrue((self.root / "else where" / "history.csv").exists())
 
+    def test_two_runs_at_once_build_one_after_the_other(self):
+        self.script("bin/cmake", f'echo begin >> {self.root}/builds; sleep 0.5; echo end >> {self.root}/builds')
+        runs = [subprocess.Popen([self.root / "ifsi", "run", "cylinder", "--out", self.root / name],
+                                 stdout=subprocess.DEVNULL, env=self.environment()) for name in ("a", "b")]
+        self.assertEqual([run.wait() for run in runs], [0, 0])
+        self.assertEqual((self.root / "builds").read_text().split(), ["begin", "end"] * 2)
+
     def test_own_configuration_replaces_that_of_the_case(self):
         done = self.ifsi("run", "cylinder", "--config", "mine.toml")
         self.assertIn("--config mine.toml", done.stdout)
