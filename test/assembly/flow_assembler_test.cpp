@@ -57,7 +57,7 @@ TEST(FlowAssembler, SumsOverCellsWhateverTheirOrder) {
   const Sums expected = one_cell_at_a_time(mesh, u, {std::vector(u.size(), 0.0), assembler.make_matrix()});
   Sums sums{std::vector(u.size(), 5.0), assembler.make_matrix()};
   std::fill(sums.K.values.begin(), sums.K.values.end(), 7.0);
-  const FlowFields fields{.u = u, .u_dot = u, .f = {}, .s = {}, .k_p = {}};
+  const FlowFields fields{.u = u, .u_dot = u, .f = {}, .s = {}, .k_p = {}, .fraction = {}};
   assembler.residual_and_tangent(fields, fluid, sums.R, sums.K);
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(sums.R[i], expected.R[i], 1e-13);
   for (std::size_t k = 0; k < sums.K.values.size(); ++k)
