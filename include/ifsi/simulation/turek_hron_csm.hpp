@@ -61,7 +61,7 @@ inline void csm_static(Run& run, const CsmOptions& o, double mu, const Vec<doubl
         .write(0.0, deformed_body(flag.body(), flag.u()));
 }
 
-/// The flag let go at t = 0; figures from the second half of the run.
+/// The flag let go at t = 0; figures from the last period, as the reference takes them.
 inline void csm_swing(Run& run, const CsmOptions& o) {
   SolidProblem<Flag> flag(csm_flag(o, 0.5e6));
   flag.clamp("left");
@@ -79,17 +79,17 @@ inline void csm_swing(Run& run, const CsmOptions& o) {
     run.progress(static_cast<double>(i) / n_steps, "t = " + std::to_string(flag.time()));
   }
   count(run, flag, n_steps);
+  const double frequency = uy.frequency(0.0), last_period = o.end - 1.0 / frequency;
   const auto middle = [&](const Signal& s) {
-    return 0.5 * (s.max(0.5 * o.end).value + s.min(0.5 * o.end).value);
+    return 0.5 * (s.max(last_period).value + s.min(last_period).value);
   };
   const auto half = [&](const Signal& s) {
-    return 0.5 * (s.max(0.5 * o.end).value - s.min(0.5 * o.end).value);
+    return 0.5 * (s.max(last_period).value - s.min(last_period).value);
   };
-  check_mm(run, "tip_ux_mean", middle(ux), -14.305, 0.02);
-  check_mm(run, "tip_ux_amplitude", half(ux), 14.305, 0.02);
+  check_mm(run, "tip_ux_mean", middle(ux), -14.305, 0.01);
+  check_mm(run, "tip_ux_amplitude", half(ux), 14.305, 0.01);
   check_mm(run, "tip_uy_mean", middle(uy), -63.607, 0.01);
   check_mm(run, "tip_uy_amplitude", half(uy), 65.160, 0.01);
-  const double frequency = uy.frequency(0.0);
   run.metric("frequency", frequency, "Hz");
   run.check("frequency", frequency, 1.0995, 0.01, "Turek & Hron 2006");
 }
