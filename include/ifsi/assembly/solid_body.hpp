@@ -548,5 +548,9 @@ extern template class SolidBody<Wedge1, UncoupledNeoHookean, MeanDilatation>;
 extern template class SolidBody<Hex1, NeoHookean, MeanDilatation>;
 extern template class SolidBody<Wedge1, NeoHookean, MeanDilatation>;
 extern template class SolidBody<Hex2, NeoHookean>;
+extern template class SolidBody<Quad1, ThinSheet<NeoHookean>>;
+extern template class SolidBody<Quad1, ThinSheet<StVenantKirchhoff>>;
+extern template class SolidBody<Quad1, ThinSheet<UncoupledNeoHookean>>;
+extern template class SolidBody<Hex2, ThinSheet<NeoHookean>, Sheet>;
 
 }  // namespace ifsi

@@ -438,4 +438,10 @@ class FsiProblem : public FlowProblem<Element, Model> {
   std::size_t n_held_ = 0;  ///< nodes outside of the mesh from the beginning
 };
 
+// What several drivers name is compiled once, in src/instantiate.
+extern template class ImmersedSolids<SolidBody<Quad1, NeoHookean>>;
+extern template class ImmersedSolids<SolidBody<Quad1, ThinSheet<NeoHookean>>>;
+extern template class FsiProblem<Quad1, SolidBody<Quad1, NeoHookean>>;
+extern template class FsiProblem<Quad1, SolidBody<Quad1, ThinSheet<NeoHookean>>>;
+
 }  // namespace ifsi
