@@ -106,8 +106,8 @@ struct Solid : testing::Test, sample::Scattered<Element> {
     }
   }
 };
-using Elements = testing::Types<Quad1, Tri2, Tet1, Hex1>;
-TYPED_TEST_SUITE(Solid, Elements);
+using SolidElements = testing::Types<Quad1, Tri2, Tet1, Hex1>;
+TYPED_TEST_SUITE(Solid, SolidElements);
 
 TYPED_TEST(Solid, MatrixIsTheDenseProduct) {
   this->locate(this->x);

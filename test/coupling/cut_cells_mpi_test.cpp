@@ -42,8 +42,8 @@ struct Cut : testing::Test, sample::Scattered<Element> {
     return layer;
   }
 };
-using Elements = testing::Types<Tri1, Quad2, Hex1, Tet1>;
-TYPED_TEST_SUITE(Cut, Elements);
+using CutElements = testing::Types<Tri1, Quad2, Hex1, Tet1>;
+TYPED_TEST_SUITE(Cut, CutElements);
 
 TYPED_TEST(Cut, CellsThatHoldANodeAreFlaggedOnEveryRankThatHasThem) {
   for (double shift : {0.0, 0.2, 0.5}) {  // the flags follow

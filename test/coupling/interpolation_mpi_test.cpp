@@ -30,8 +30,8 @@ struct Coupled : testing::Test, sample::Scattered<Element> {
     EXPECT_EQ(this->C.lost(), this->C_whole.lost());
   }
 };
-using Elements = testing::Types<Tri2, Quad1, Tet1, Hex1>;
-TYPED_TEST_SUITE(Coupled, Elements);
+using CoupledElements = testing::Types<Tri2, Quad1, Tet1, Hex1>;
+TYPED_TEST_SUITE(Coupled, CoupledElements);
 
 TYPED_TEST(Coupled, RowsDoNotDependOnThePartition) {
   this->locate(this->x);

@@ -18,12 +18,12 @@ template <class E>
 
 /// Node movement near the limit at which random cells are still valid.
 template <class E>
-constexpr double distortion = E::order == 1
-                                  ? (E::shape == Shape::hex || E::shape == Shape::wedge ? 0.35 : 0.5)
-                              : E::shape == Shape::line || E::shape == Shape::triangle ? 0.12
-                              : E::shape == Shape::tet                                 ? 0.08
-                              : E::shape == Shape::hex                                 ? 0.15
-                                                                                       : 0.25;
+constexpr double mapped_distortion = E::order == 1
+                                         ? (E::shape == Shape::hex || E::shape == Shape::wedge ? 0.35 : 0.5)
+                                     : E::shape == Shape::line || E::shape == Shape::triangle ? 0.12
+                                     : E::shape == Shape::tet                                 ? 0.08
+                                     : E::shape == Shape::hex                                 ? 0.15
+                                                                                              : 0.25;
 
 template <class E>
 class InverseMapTest : public ::testing::Test {
@@ -36,7 +36,7 @@ TYPED_TEST_SUITE(InverseMapTest, test::Cells, test::ElementName);
 TYPED_TEST(InverseMapTest, FindsEveryPointOfDistortedCells) {
   using E = TypeParam;
   for (int cell = 0; cell < this->n_cells; ++cell) {
-    const auto X = random_cell<E>(this->random, distortion<E>);
+    const auto X = random_cell<E>(this->random, mapped_distortion<E>);
     for (int sample = 0; sample < 50; ++sample) {
       const auto xi = random_point<E>(this->random);
       const auto found = find<E>(X, map<E>(xi, X));
@@ -49,7 +49,7 @@ TYPED_TEST(InverseMapTest, FindsEveryPointOfDistortedCells) {
 
 TYPED_TEST(InverseMapTest, FindsNodesAndPointsJustOffThem) {
   using E = TypeParam;
-  const auto X = random_cell<E>(this->random, distortion<E>);
+  const auto X = random_cell<E>(this->random, mapped_distortion<E>);
   for (const auto& node : E::nodes)
     for (double off : {0.0, 1e-12, -1e-12, 1e-6, -1e-6}) {
       const auto xi = node + off * (node - E::center);
@@ -62,7 +62,7 @@ TYPED_TEST(InverseMapTest, FindsNodesAndPointsJustOffThem) {
 TYPED_TEST(InverseMapTest, PointsOutsideGetCoordinatesOutside) {
   using E = TypeParam;
   for (int cell = 0; cell < this->n_cells; ++cell) {
-    const auto X = random_cell<E>(this->random, 0.4 * distortion<E>);
+    const auto X = random_cell<E>(this->random, 0.4 * mapped_distortion<E>);
     for (int sample = 0; sample < 20; ++sample) {
       const auto xi = random_point<E>(this->random, 1e-9, 0.15);
       const auto found = find<E>(X, map<E>(xi, X));
@@ -76,7 +76,7 @@ TYPED_TEST(InverseMapTest, PointsOutsideGetCoordinatesOutside) {
 TYPED_TEST(InverseMapTest, NeverClaimsAPointItDoesNotReach) {
   using E = TypeParam;
   for (int cell = 0; cell < this->n_cells; ++cell) {
-    const auto X = random_cell<E>(this->random, distortion<E>);
+    const auto X = random_cell<E>(this->random, mapped_distortion<E>);
     for (int sample = 0; sample < 20; ++sample) {
       Vec<double, E::dim> x;
       for (int i = 0; i < E::dim; ++i) x[i] = test::uniform(this->random, -6.0, 6.0);
@@ -91,7 +91,7 @@ TYPED_TEST(InverseMapTest, NeverClaimsAPointItDoesNotReach) {
 
 TYPED_TEST(InverseMapTest, AnyGuessLeadsToThePoint) {
   using E = TypeParam;
-  const auto X = random_cell<E>(this->random, distortion<E>);
+  const auto X = random_cell<E>(this->random, mapped_distortion<E>);
   for (int sample = 0; sample < 50; ++sample) {
     const auto xi = random_point<E>(this->random), guess = random_point<E>(this->random, -1.0, 3.0);
     const auto found = inverse_map<E>(X, map<E>(xi, X), guess);
@@ -103,7 +103,7 @@ TYPED_TEST(InverseMapTest, AnyGuessLeadsToThePoint) {
 /// A cell of 1e-5 far from the origin loses digits of the coordinates, no more.
 TYPED_TEST(InverseMapTest, WorksFarFromTheOrigin) {
   using E = TypeParam;
-  auto X = random_cell<E>(this->random, distortion<E>);
+  auto X = random_cell<E>(this->random, mapped_distortion<E>);
   for (auto& x : X)
     for (int i = 0; i < E::dim; ++i) x[i] = 10.0 + 1e-5 * x[i];
   for (int sample = 0; sample < 20; ++sample) {

@@ -44,7 +44,7 @@ struct System {
   }
 };
 
-GmresOptions tight() {
+GmresOptions tight_options() {
   GmresOptions o;
   o.target = {{1e-10, 1e-10}, {}};
   o.max_iterations = 400;
@@ -55,14 +55,14 @@ GmresOptions tight() {
 
 TEST(Fgmres, FindsTheDenseSolution) {
   System s;
-  EXPECT_TRUE(s.solve(tight(), s.identity()).converged);
+  EXPECT_TRUE(s.solve(tight_options(), s.identity()).converged);
   const Eigen::VectorXd exact = test::solve(s.K, s.rhs);
   EXPECT_LT((s.solution() - exact).norm(), 1e-6 * exact.norm());
 }
 
 TEST(Fgmres, ReportsTheTrueResidualsOfBothBlocks) {
   System s;
-  GmresOptions o = tight();
+  GmresOptions o = tight_options();
   o.target = {{1e-3, 1e-3}, {}};
   const SolverReport report = s.solve(o, s.identity());
   const BlockNorms r = s.residual();
@@ -76,7 +76,7 @@ TEST(Fgmres, ReportsTheTrueResidualsOfBothBlocks) {
 
 TEST(Fgmres, SolvesASmallMassBlockBesideALargeMomentumBlock) {
   System s(1, 1e-2);
-  GmresOptions o = tight();
+  GmresOptions o = tight_options();
   o.target = {{1e-2, 1e-2}, {}};
   EXPECT_TRUE(s.solve(o, s.identity()).converged);
   EXPECT_LE(s.residual().mass, 1e-2 * s.norms(s.rhs).mass * (1 + 1e-9));
@@ -84,7 +84,7 @@ TEST(Fgmres, SolvesASmallMassBlockBesideALargeMomentumBlock) {
 
 TEST(Fgmres, StopsEarlierWhereAnAbsoluteTargetAllowsIt) {
   System strict, loose;
-  GmresOptions o = tight();
+  GmresOptions o = tight_options();
   o.target = {{1e-8, 1e-8}, {}};
   const int n_strict = strict.solve(o, strict.identity()).iterations;
   o.target.absolute = {1e-1, 1e-1};
@@ -96,7 +96,7 @@ TEST(Fgmres, StopsEarlierWhereAnAbsoluteTargetAllowsIt) {
 
 TEST(Fgmres, AVanishingMassResidualIsMeasuredByTheMomentum) {
   System s(1, 0);
-  GmresOptions o = tight();
+  GmresOptions o = tight_options();
   o.target = {{1e-2, 1e-2}, {}};
   o.mass_per_momentum = 0.5;
   const SolverReport report = s.solve(o, s.identity());
@@ -107,7 +107,7 @@ TEST(Fgmres, AVanishingMassResidualIsMeasuredByTheMomentum) {
 
 TEST(Fgmres, RestartsReachTheSameSolution) {
   System s;
-  GmresOptions o = tight();
+  GmresOptions o = tight_options();
   o.restart = 15;
   o.max_iterations = 4000;
   const Eigen::MatrixXd K = s.K;
@@ -136,7 +136,7 @@ TEST(Fgmres, APreconditionerMayChangeFromStepToStep) {
     const std::vector<double> local = test::scatter(s.layout(), B, all);
     std::copy(local.begin(), local.end(), z);
   };
-  const SolverReport report = s.solve(tight(), changing);
+  const SolverReport report = s.solve(tight_options(), changing);
   EXPECT_TRUE(report.converged) << report.message;
   EXPECT_LT(report.iterations, 40);
   EXPECT_LE(s.residual().mass, 1.01e-10 * s.norms(s.rhs).mass);
@@ -145,14 +145,14 @@ TEST(Fgmres, APreconditionerMayChangeFromStepToStep) {
 TEST(Fgmres, AnExactStartNeedsNoIteration) {
   System s;
   s.x = test::scatter(s.layout(), B, test::solve(s.K, s.rhs));
-  GmresOptions o = tight();
+  GmresOptions o = tight_options();
   o.target.absolute = {1e-9, 1e-9};
   EXPECT_EQ(s.solve(o, s.identity()).iterations, 0);
 }
 
 TEST(Fgmres, SaysThatItDidNotConverge) {
   System s;
-  GmresOptions o = tight();
+  GmresOptions o = tight_options();
   o.max_iterations = 5;
   const SolverReport report = s.solve(o, s.identity());
   EXPECT_FALSE(report.converged);
@@ -163,14 +163,14 @@ TEST(Fgmres, SaysThatItDidNotConverge) {
 TEST(Fgmres, ASingularPreconditionerEndsTheSolveInsteadOfLoopingForever) {
   System s;
   const LinearMap zero = [n = s.b.size()](double*, double* z) { std::fill_n(z, n, 0.0); };
-  EXPECT_FALSE(s.solve(tight(), zero).converged);
+  EXPECT_FALSE(s.solve(tight_options(), zero).converged);
 }
 
 TEST(Fgmres, RefusesNaN) {
   System s;
   s.b[0] = std::numeric_limits<double>::quiet_NaN();
   try {
-    s.solve(tight(), s.identity());
+    s.solve(tight_options(), s.identity());
     FAIL() << "expected an Error";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::linear_solver);

@@ -8,7 +8,7 @@ namespace {
 using namespace ifsi;
 using test::StokesModel;
 
-constexpr BlockNorms tight{1e-11, 1e-11};
+constexpr BlockNorms tight_norms{1e-11, 1e-11};
 
 /// Largest difference between x and a known solution.
 template <int dim>
@@ -32,7 +32,7 @@ TEST(LinearSolver, DirectFindsTheSolution) {
   LinearSolver<3> solver({});
   const std::vector<double> b = right_hand_side(model);
   std::vector<double> x(b.size(), 0.0);
-  const SolverReport report = solver.solve(model.K, b, x, tight);
+  const SolverReport report = solver.solve(model.K, b, x, tight_norms);
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.iterations, 3);
   EXPECT_LT(error(model, x), 1e-9);
@@ -43,7 +43,7 @@ TEST(LinearSolver, EnclosedFlowHasAPressureOfZeroMean) {
   LinearSolver<3> solver({.enclosed = true});
   const std::vector<double> b = right_hand_side(model);
   std::vector<double> x(b.size(), 0.0);
-  EXPECT_TRUE(solver.solve(model.K, b, x, tight).converged);
+  EXPECT_TRUE(solver.solve(model.K, b, x, tight_norms).converged);
   EXPECT_LT(error(model, x), 1e-8);
 }
 
@@ -54,7 +54,7 @@ TEST(LinearSolver, StaleFactorsServeUntilTheyNoLongerPay) {
     StokesModel<2> model({.cells = 12, .rho_c = 1, .viscosity = .1, .wind = wind});
     const std::vector<double> b = right_hand_side(model);
     std::vector<double> x(b.size(), 0.0);
-    ASSERT_TRUE(solver.solve(model.K, b, x, tight).converged) << "wind " << wind;
+    ASSERT_TRUE(solver.solve(model.K, b, x, tight_norms).converged) << "wind " << wind;
     ASSERT_LT(error(model, x), 1e-4) << "wind " << wind;
   }
   EXPECT_GT(solver.total_setups(), 1);
@@ -78,7 +78,7 @@ void solve_with_gmres(bool enclosed) {
   LinearSolver<dim + 1> solver({.method = "gmres", .enclosed = enclosed}, schur_of(model));
   const std::vector<double> b = right_hand_side(model);
   std::vector<double> x(b.size(), 0.0);
-  const SolverReport report = solver.solve(model.K, b, x, tight);
+  const SolverReport report = solver.solve(model.K, b, x, tight_norms);
   EXPECT_TRUE(report.converged) << report.message;
   EXPECT_LT(error(model, x), 1e-7);
 }
@@ -95,7 +95,7 @@ TEST(LinearSolver, GhostsOfTheSolutionAreUpToDate) {
   LinearSolver<3> solver({});
   const std::vector<double> b = right_hand_side(model);
   std::vector<double> x(b.size(), 0.0);
-  solver.solve(model.K, b, x, tight);
+  solver.solve(model.K, b, x, tight_norms);
   std::vector<double> refreshed = x;
   model.grid.layout.update_ghosts(refreshed.data(), 3);
   EXPECT_EQ(x, refreshed);
@@ -120,7 +120,7 @@ TEST(LinearSolver, FallsBackToLuWhereTheBlockPreconditionerFails) {
   LinearSolver<4> solver({.max_iterations = 4}, misleading);
   const std::vector<double> b = right_hand_side(model);
   std::vector<double> x(b.size(), 0.0);
-  EXPECT_TRUE(solver.solve(model.K, b, x, tight).converged);
+  EXPECT_TRUE(solver.solve(model.K, b, x, tight_norms).converged);
   EXPECT_NE(solver.description().find("did not converge"), std::string::npos) << solver.description();
 }
 

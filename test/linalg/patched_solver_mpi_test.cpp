@@ -10,7 +10,7 @@ namespace {
 using namespace ifsi;
 using test::StokesModel;
 
-constexpr SolveTarget tight{{1e-9, 1e-9}, {}};
+constexpr SolveTarget tight_target{{1e-9, 1e-9}, {}};
 
 /// What a solid at x_0 = `at` does: springs of `stiffness` between its nodes, and PSPG in the rows around it
 /// scaled, as s and k_p do.
@@ -53,7 +53,7 @@ struct Scene {
     fluid.K.apply(exact.data(), b.data());
     K_s.apply(exact.data(), from_solid.data());
     for (std::size_t i = 0; i < b.size(); ++i) b[i] += from_solid[i];
-    const SolverReport report = solver.solve(fluid.K, K_s, b, x, tight);
+    const SolverReport report = solver.solve(fluid.K, K_s, b, x, tight_target);
     EXPECT_TRUE(report.converged) << report.message;
     double error = 0.0;
     for (int i = 0; i < K_s.n_rows() * B; ++i) error = std::max(error, std::abs(x[i] - exact[i]));

@@ -15,7 +15,7 @@ namespace {
 using Problem = RigidFsiProblem<Quad1>;
 constexpr double radius = 0.15;
 
-FlowOptions flow_options() {
+FlowOptions rigid_flow_options() {
   FlowOptions options;
   options.rho_inf = 0.0;
   options.newton.rtol = 1e-10;
@@ -53,10 +53,10 @@ TEST(RigidFsiProblem, ADiscInShearTurnsWithHalfTheShearRate) {
   const auto mesh = square(Communicator());
   RigidFsiOptions options;
   const auto disc = disc_at({0.0, 0.0}, {0.0, 0.0});
-  EXPECT_THROW(Problem(mesh, shear(), 1.0, Newtonian{10.0}, {disc}, flow_options(), options),
+  EXPECT_THROW(Problem(mesh, shear(), 1.0, Newtonian{10.0}, {disc}, rigid_flow_options(), options),
                Error);  // enclosed
   options.interior = 1.0;
-  Problem problem(mesh, shear(), 1.0, Newtonian{10.0}, {disc}, flow_options(), options);
+  Problem problem(mesh, shear(), 1.0, Newtonian{10.0}, {disc}, rigid_flow_options(), options);
   ASSERT_TRUE(problem.solve_steady().converged);
   const auto W = problem.body(0).velocity();
   EXPECT_NEAR(W[0], 0.0, 1e-6);
@@ -67,7 +67,8 @@ TEST(RigidFsiProblem, ADiscInShearTurnsWithHalfTheShearRate) {
 
 struct Settling : Problem {
   explicit Settling(const Mesh<Quad1>& mesh)
-      : Problem(mesh, basin(), 1.0, Newtonian{1.0}, {disc_at({0.2, 0.1}, {0.0, -1.0})}, flow_options(), {}) {
+      : Problem(mesh, basin(), 1.0, Newtonian{1.0}, {disc_at({0.2, 0.1}, {0.0, -1.0})}, rigid_flow_options(),
+                {}) {
     EXPECT_TRUE(start_step(1e-6).converged);
     for (int k = 0; k < 5; ++k) EXPECT_TRUE(step(0.02).converged);
   }
@@ -116,7 +117,7 @@ std::vector<double> speeds_past_half_a_disc(const Mat<double, 2>& Q) {
   Problem::Immersed disc{{rigid_shape<Cartesian>(body), 2.0, {}, {false, false, false}},
                          boundary_points(body, 0),
                          [](const auto& x) { return std::sqrt(dot(x, x)) - radius; }};
-  Problem problem(mesh, boundary, 1.0, Newtonian{1.0}, {disc}, flow_options(), {});
+  Problem problem(mesh, boundary, 1.0, Newtonian{1.0}, {disc}, rigid_flow_options(), {});
   EXPECT_TRUE(problem.solve_steady().converged);
   EXPECT_LT(problem.constraint_violation(), 1e-8);
   const std::vector<double> u = problem.solution();
@@ -136,9 +137,9 @@ TEST(RigidFsiProblem, PointsOnAnInclinedSymmetryPlane) {
 
 TEST(RigidFsiProblem, ABodyOutsideIsRefused) {
   const auto mesh = square(Communicator());
-  EXPECT_THROW(
-      Problem(mesh, basin(), 1.0, Newtonian{1.0}, {disc_at({0.95, 0.0}, {0.0, 0.0})}, flow_options(), {}),
-      Error);
+  EXPECT_THROW(Problem(mesh, basin(), 1.0, Newtonian{1.0}, {disc_at({0.95, 0.0}, {0.0, 0.0})},
+                       rigid_flow_options(), {}),
+               Error);
 }
 
 }  // namespace
