@@ -44,8 +44,9 @@ void subtract_product(const float* A, const float* B, float* C) {
 /// y = b - sum of the blocks [begin, end) times x; y may be b.
 template <int D>
 void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, const float* x, float* y) {
+  const int* cols = A.pattern().cols.data();
   BlockRow<float, D> row;
-  for (int k = begin; k < end; ++k) row.add(A.at(k), x + static_cast<std::size_t>(A.cols[k]) * D);
+  for (int k = begin; k < end; ++k) row.add(A.at(k), x + static_cast<std::size_t>(cols[k]) * D);
   float sum[D];
   row.store(sum);
   for (int r = 0; r < D; ++r) y[r] = b[r] - sum[r];
@@ -58,7 +59,7 @@ void BlockIlu<D>::factor() {
   std::vector<int> position(LU_.n_rows(), -1);
   for (int i = 0; i < LU_.n_rows(); ++i) {
     eliminate_row(i, position);
-    invert<D>(LU_.at(LU_.diagonal[i]), i);
+    invert<D>(LU_.at(LU_.pattern().diagonal[i]), i);
   }
 }
 
@@ -66,31 +67,34 @@ void BlockIlu<D>::factor() {
 /// return.
 template <int D>
 void BlockIlu<D>::eliminate_row(int i, std::vector<int>& position) {
-  for (int k = LU_.row_ptr[i]; k < LU_.row_ptr[i + 1]; ++k) position[LU_.cols[k]] = k;
-  for (int k = LU_.row_ptr[i]; k < LU_.diagonal[i]; ++k) {
-    const int j = LU_.cols[k];
+  const auto& [row_ptr, cols, diagonal, blocks] = LU_.pattern();
+  for (int k = row_ptr[i]; k < row_ptr[i + 1]; ++k) position[cols[k]] = k;
+  for (int k = row_ptr[i]; k < diagonal[i]; ++k) {
+    const int j = cols[k];
     float L[D * D] = {}, *A = LU_.at(k);
-    const float* pivot = LU_.at(LU_.diagonal[j]);
+    const float* pivot = LU_.at(diagonal[j]);
     for (int r = 0; r < D; ++r)
       for (int c = 0; c < D; ++c)
         for (int e = 0; e < D; ++e) L[r * D + c] += A[r * D + e] * pivot[e * D + c];
     std::copy_n(L, D * D, A);
-    for (int u = LU_.diagonal[j] + 1; u < LU_.row_ptr[j + 1]; ++u)
-      if (const int to = position[LU_.cols[u]]; to >= 0) subtract_product<D>(L, LU_.at(u), LU_.at(to));
+    for (int u = diagonal[j] + 1; u < row_ptr[j + 1]; ++u)
+      if (const int to = position[cols[u]]; to >= 0) subtract_product<D>(L, LU_.at(u), LU_.at(to));
   }
-  for (int k = LU_.row_ptr[i]; k < LU_.row_ptr[i + 1]; ++k) position[LU_.cols[k]] = -1;
+  for (int k = row_ptr[i]; k < row_ptr[i + 1]; ++k) position[cols[k]] = -1;
 }
 
 template <int D>
-void BlockIlu<D>::apply(const float* b, float* x) const {
+void BlockIlu<D>::apply(float* b, float* x) const {
+  LU_.layout().update_ghosts(b, D);
+  const OverlapPattern& at = LU_.pattern();
   for (int i = 0; i < LU_.n_rows(); ++i)
-    row_residual<D>(LU_, LU_.row_ptr[i], LU_.diagonal[i], b + static_cast<std::size_t>(i) * D, x,
+    row_residual<D>(LU_, at.row_ptr[i], at.diagonal[i], b + static_cast<std::size_t>(i) * D, x,
                     x + static_cast<std::size_t>(i) * D);
   float rest[D];
   for (int i = LU_.n_rows() - 1; i >= 0; --i) {
     float* xi = x + static_cast<std::size_t>(i) * D;
-    row_residual<D>(LU_, LU_.diagonal[i] + 1, LU_.row_ptr[i + 1], xi, x, rest);
-    multiply<D>(LU_.at(LU_.diagonal[i]), rest, xi);
+    row_residual<D>(LU_, at.diagonal[i] + 1, at.row_ptr[i + 1], xi, x, rest);
+    multiply<D>(LU_.at(at.diagonal[i]), rest, xi);
   }
 }
 
@@ -99,25 +103,27 @@ void BlockGaussSeidel<D>::invert_diagonals() {
   inverse_.resize(static_cast<std::size_t>(A_.n_rows()) * D * D);
   for (int i = 0; i < A_.n_rows(); ++i) {
     float* block = &inverse_[static_cast<std::size_t>(i) * D * D];
-    std::copy_n(A_.at(A_.diagonal[i]), D * D, block);
+    std::copy_n(A_.at(A_.pattern().diagonal[i]), D * D, block);
     invert<D>(block, i);
   }
 }
 
 template <int D>
-void BlockGaussSeidel<D>::apply(const float* b, float* x) const {
+void BlockGaussSeidel<D>::apply(float* b, float* x) const {
+  A_.layout().update_ghosts(b, D);
+  const OverlapPattern& at = A_.pattern();
   float rest[D];
   const auto relax = [&](int i, int begin, int end) {
     row_residual<D>(A_, begin, end, b + static_cast<std::size_t>(i) * D, x, rest);
   };
   // Forward, from zero: what lies above the diagonal has not been reached yet.
   for (int i = 0; i < A_.n_rows(); ++i) {
-    relax(i, A_.row_ptr[i], A_.diagonal[i]);
+    relax(i, at.row_ptr[i], at.diagonal[i]);
     multiply<D>(&inverse_[static_cast<std::size_t>(i) * D * D], rest, x + static_cast<std::size_t>(i) * D);
   }
   // Backward: the whole row, the old value of the diagonal taken out again by adding a correction.
   for (int i = A_.n_rows() - 1; i >= 0; --i) {
-    relax(i, A_.row_ptr[i], A_.row_ptr[i + 1]);
+    relax(i, at.row_ptr[i], at.row_ptr[i + 1]);
     float correction[D];
     multiply<D>(&inverse_[static_cast<std::size_t>(i) * D * D], rest, correction);
     for (int r = 0; r < D; ++r) x[static_cast<std::size_t>(i) * D + r] += correction[r];

@@ -37,9 +37,9 @@ class SaddlePreconditioner<B>::Impl {
     z_p_.assign(pattern_->layout.n_local(), 0.0);
     potential_ = z_p_;
     r_p_.resize(K.n_rows());
-    local_.resize(K.n_rows());
+    local_.resize(pattern_->layout.n_local());
     transported_.assign(K.n_rows(), 0.0);
-    r_v_.resize(static_cast<std::size_t>(K.n_rows()) * dim);
+    r_v_.resize(static_cast<std::size_t>(pattern_->layout.n_local()) * dim);
     z_v_.resize(r_v_.size());
   }
 
@@ -214,7 +214,7 @@ class SaddlePreconditioner<B>::Impl {
   /// z_v = A^-1 r_v
   void apply_velocity() {
     if (const auto* amg = std::get_if<Amg>(&velocity_)) {
-      wide_b_.assign(r_v_.begin(), r_v_.end());
+      wide_b_.assign(r_v_.begin(), r_v_.begin() + pattern_->n_rows() * long{dim});
       wide_x_.resize(wide_b_.size());
       amg->apply(wide_b_.data(), wide_x_.data());
       for (std::size_t i = 0; i < wide_x_.size(); ++i) z_v_[i] = static_cast<float>(wide_x_[i]);

@@ -21,6 +21,7 @@ Eigen::MatrixXd dense(long n, const std::vector<DenseEntry>& entries) {
 }
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) { return A.inverse(); }
+Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A * B; }
 Eigen::VectorXd multiply(const Eigen::MatrixXd& A, const Eigen::VectorXd& x) { return A * x; }
 Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return A.partialPivLu().solve(b);

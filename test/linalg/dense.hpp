@@ -31,6 +31,7 @@ Eigen::MatrixXd dense(const BlockCsr<B>& K) {
 }
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
+Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 Eigen::VectorXd multiply(const Eigen::MatrixXd& A, const Eigen::VectorXd& x);
 /// A^-1 b
 Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);

@@ -42,13 +42,13 @@ TEST(SaddlePreconditioner, SolvesItsBlockEquations) {
   const Layout& layout = model.grid.layout;
   SaddlePreconditioner<3> P({.velocity = "ilu"});
   P.update(model.K, schur_parts(model));
-  const int n = layout.n_owned();
+  const int n = layout.n_owned(), n_local = layout.n_local();
   const std::vector<double> r = test::scatter(layout, 3, test::some_vector(3 * layout.n_global()));
   std::vector<double> z(r.size());
   P.apply(r.data(), z.data());
 
   std::vector<double> r_p(n), z_p(n), Gz(r.size()), pressure(r.size(), 0.0);
-  std::vector<float> local(n);
+  std::vector<float> local(n_local);
   for (int i = 0; i < n; ++i) r_p[i] = r[3 * i + 2];
   pressure_solver(model).apply(r_p.data(), z_p.data());
   BlockCsr<1> mass_and_pspg = extract_diagonal_part<1>(model.K, 2);
@@ -63,7 +63,7 @@ TEST(SaddlePreconditioner, SolvesItsBlockEquations) {
   local_part.apply(local.data(), local.data());
   for (int i = 0; i < n; ++i) pressure[3 * i + 2] = z_p[i] += local[i];
   model.K.apply(pressure.data(), Gz.data());
-  std::vector<float> r_v(2 * n), z_v(2 * n);
+  std::vector<float> r_v(2 * n_local), z_v(2 * n_local);
   for (int i = 0; i < 2 * n; ++i) r_v[i] = static_cast<float>(r[i / 2 * 3 + i % 2] - Gz[i / 2 * 3 + i % 2]);
   BlockIlu<2> ilu;
   ilu.update(model.K);
