@@ -28,7 +28,9 @@ struct FlowOptions {
 
   void declare(Parameters& params) {
     params.add("time.rho_inf", rho_inf, "-", "spectral radius at infinite frequency", {0.0, 1.0});
-    params.add("fluid.tau_dt", tau_dt, "time", "reference time step in tau_M (0: dt)", non_negative);
+    params.add("fluid.tau_dt", tau_dt, "time",
+               "reference time step in tau_M (0: dt); steps of less than a fifth of it may fail",
+               non_negative);
     newton.declare(params);
     params.add_choice("linear.method", linear.method, {"auto", "direct", "gmres"}, "linear solver");
     params.add("linear.max_iterations", linear.max_iterations, "-", "GMRES iterations per solve", {1, 10000});
