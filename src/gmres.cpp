@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "ifsi/core/error.hpp"
-#include "ifsi/linalg/aligned.hpp"
 
 namespace ifsi {
 namespace {
@@ -17,12 +16,15 @@ using Array = AlignedVector<double>;
 constexpr long chunk = 1024;
 
 double dot(const double* x, const double* y, long n) {
-  double sum[8] = {};
+  constexpr int lanes = 32;  // enough that no addition waits for another
+  double sum[lanes] = {};
   long i = 0;
-  for (; i + 8 <= n; i += 8)
-    for (int l = 0; l < 8; ++l) sum[l] += x[i + l] * y[i + l];
+  for (; i + lanes <= n; i += lanes)
+    for (int l = 0; l < lanes; ++l) sum[l] += x[i + l] * y[i + l];
   for (; i < n; ++i) sum[0] += x[i] * y[i];
-  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+  for (int half = lanes / 2; half > 0; half /= 2)
+    for (int l = 0; l < half; ++l) sum[l] += sum[l + half];
+  return sum[0];
 }
 
 /// One solve: Krylov basis V, preconditioned directions Z, and the small least-squares problem R y = g.
@@ -30,7 +32,8 @@ double dot(const double* x, const double* y, long n) {
 template <int B>
 class Fgmres {
  public:
-  Fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& P, const GmresOptions& options)
+  Fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& P, const GmresOptions& options,
+         GmresWorkspace& space)
       : comm_(layout.communicator()),
         A_(A),
         P_(P),
@@ -38,8 +41,13 @@ class Fgmres {
         block_(block),
         n_(static_cast<long>(layout.n_owned()) * block),
         n_local_(static_cast<long>(layout.n_local()) * block),
-        residual_(n_local_),
-        work_(n_local_) {}
+        residual_(space.residual),
+        work_(space.work),
+        V_(space.basis),
+        Z_(space.directions) {
+    residual_.resize(n_local_);
+    work_.resize(n_local_);
+  }
 
   SolverReport solve(const double* b, double* x) {
     if (is_zero(x))
@@ -132,51 +140,52 @@ class Fgmres {
     rotations_.clear();
     for_each_entry([&](long i, int c) { residual_[i] /= reference_[c]; });
     g_.assign(1, std::sqrt(sum_of_squares(residual_)));
-    scale_into(0, residual_, 1 / g_[0]);
-    std::copy_n(V_[0].begin(), n_, residual_.begin());
-    bool stuck = false;
-    report_.converged = false;
-    while (static_cast<int>(R_.size()) < m && !report_.converged && !stuck) stuck = !extend();
+    Array& v = entry(V_, 0);
+    for (long i = 0; i < n_; ++i) v[i] = residual_[i] / g_[0];
+    bool stuck = false, done = false;
+    while (static_cast<int>(R_.size()) < m && !done && !stuck) {
+      stuck = !extend();
+      done = on_target();
+    }
     add_correction(x);
     return stuck;
   }
 
   [[nodiscard]] double sum_of_squares(const Array& x) const { return comm_.sum(dot(x.data(), x.data(), n_)); }
 
-  /// V_k = scale x.
-  void scale_into(int k, const Array& x, double scale) {
-    if (static_cast<int>(V_.size()) <= k) V_.emplace_back(n_local_);
-    for (long i = 0; i < n_; ++i) V_[k][i] = scale * x[i];
+  /// Vector k of a list that grows by one.
+  Array& entry(std::vector<Array>& list, int k) const {
+    if (static_cast<int>(list.size()) <= k) list.emplace_back();
+    list[k].resize(n_local_);
+    return list[k];
   }
 
   /// One step of the Arnoldi process: direction z = P v, new basis vector from A z. False on breakdown.
   bool extend() {
     const int k = static_cast<int>(R_.size());
-    if (static_cast<int>(Z_.size()) <= k) Z_.emplace_back(n_local_);
+    Array &z = entry(Z_, k), &next = entry(V_, k + 1);
+    const Array& v = V_[k];
     // Any scale of z_k will do; numbers near one suit preconditioners in single precision.
     const double largest = *std::max_element(reference_.begin(), reference_.end());
     std::vector<double> in(reference_), out(reference_);
     for (double& factor : in) factor /= largest;
     for (double& factor : out) factor = 1 / factor;
-    for_each_entry([&](long i, int c) { work_[i] = V_[k][i] * in[c]; });
-    P_(work_.data(), Z_[k].data());
-    A_(Z_[k].data(), work_.data());
+    for_each_entry([&](long i, int c) { work_[i] = v[i] * in[c]; });
+    P_(work_.data(), z.data());
+    A_(z.data(), work_.data());
     for_each_entry([&](long i, int c) { work_[i] *= out[c]; });
     ++report_.iterations;
     std::vector<double> h(k + 2, 0.0);
-    const double size = orthogonalise(k + 1, h);
-    const bool independent = h[k + 1] > 1e-14 * size;
-    if (!independent) h[k + 1] = 0;
-    scale_into(k + 1, work_, independent ? 1 / h[k + 1] : 0.0);
+    const bool independent = orthogonalise(k + 1, h, next);
     rotate(h);
     R_.push_back(std::move(h));
-    update_residual(k);
     return independent;
   }
 
-  /// Removes the parts of work_ along V_0 .. V_{m-1}, collected in h; h[m] is what remains of its norm.
-  /// Returns the norm before. A pass that loses more than half the length is repeated ("twice is enough").
-  double orthogonalise(int m, std::vector<double>& h) {
+  /// Removes the parts of work_ along V_0 .. V_{m-1}, collected in h; h[m] is what remains of its norm, and
+  /// `next` is work_ over that. A pass that loses more than half the length is repeated ("twice is enough").
+  /// False when nothing remains.
+  bool orthogonalise(int m, std::vector<double>& h, Array& next) {
     std::vector<double> part(m + 1);
     double before = 0;
     for (int pass = 0; pass < 3; ++pass) {
@@ -189,12 +198,15 @@ class Fgmres {
         left -= part[j] * part[j];
         h[j] += part[j];
       }
-      subtract(m, part);
       h[m] = std::sqrt(std::max(left, 0.0));
       if (pass == 0) before = std::sqrt(squared);
-      if (left > 0.25 * squared || squared == 0) break;
+      if (left > 0.25 * squared || squared == 0 || pass == 2) break;
+      subtract(m, part, 1, work_);
     }
-    return before;
+    const bool independent = h[m] > 1e-14 * before;
+    if (!independent) h[m] = 0;
+    subtract(m, part, independent ? 1 / h[m] : 0.0, next);
+    return independent;
   }
 
   /// part[j] = V_j . work_ for j < m, part[m] = work_ . work_, on this rank.
@@ -207,11 +219,14 @@ class Fgmres {
     }
   }
 
-  /// work_ -= sum_j part[j] V_j.
-  void subtract(int m, const std::vector<double>& part) {
-    for (long i = 0; i < n_; i += chunk)
+  /// y = scale (work_ - sum_j part[j] V_j); y may be work_.
+  void subtract(int m, const std::vector<double>& part, double scale, Array& y) {
+    for (long i = 0; i < n_; i += chunk) {
+      const long end = std::min(i + chunk, n_);
       for (int j = 0; j < m; ++j)
-        for (long l = i, end = std::min(i + chunk, n_); l < end; ++l) work_[l] -= part[j] * V_[j][l];
+        for (long l = i; l < end; ++l) work_[l] -= part[j] * V_[j][l];
+      for (long l = i; l < end; ++l) y[l] = scale * work_[l];
+    }
   }
 
   /// Applies the old Givens rotations to column h, and a new one that clears its last entry.
@@ -231,16 +246,28 @@ class Fgmres {
     rotations_.push_back(r);
   }
 
-  /// The residual is g_{k+1} q_{k+1} with the unit vector q_{k+1} = -s q_k + c v_{k+1}: its two blocks are
-  /// known at every step without forming b - A x.
-  void update_residual(int k) {
-    const auto [c, s] = rotations_[k];
-    for (long i = 0; i < n_; ++i) residual_[i] = c * V_[k + 1][i] - s * residual_[i];
-    const BlockNorms q = norms(residual_.data());
-    const double g = std::abs(g_[k + 1]);
-    const double mass_reference = reference_[std::max(options_.mass_component, 0)];
-    const double momentum_reference = reference_[options_.mass_component == 0 ? block() - 1 : 0];
-    update_report({g * q.momentum * momentum_reference, g * q.mass * mass_reference});
+  /// Whether both blocks of equations are. Divided by their targets they make |g_{k+1}| together, so that they
+  /// need to be told apart only while that is between 1 and sqrt 2.
+  [[nodiscard]] bool on_target() {
+    const double g = std::abs(g_.back());
+    if (g <= 1 || g * g > 2) return g <= 1;
+    const BlockNorms q = direction_norms();
+    const bool one_block = options_.mass_component < 0;
+    return g * q.momentum <= 1 && (one_block || g * q.mass <= 1);
+  }
+
+  /// Block norms of the direction of the residual, q_{k+1} with q_0 = v_0, q_{k+1} = -s_k q_k + c_k v_{k+1}.
+  [[nodiscard]] BlockNorms direction_norms() {
+    const int m = static_cast<int>(rotations_.size());
+    std::vector<double> factors(m + 1, 1.0);
+    for (int k = 0; k < m; ++k) {
+      for (int j = 0; j <= k; ++j) factors[j] *= -rotations_[k].s;
+      factors[k + 1] = rotations_[k].c;
+    }
+    std::fill_n(residual_.begin(), n_, 0.0);
+    for (int j = 0; j <= m; ++j)
+      for (long i = 0; i < n_; ++i) residual_[i] += factors[j] * V_[j][i];
+    return norms(residual_.data());
   }
 
   /// x += Z y with R y = g. A zero pivot (singular A on the space) contributes nothing.
@@ -267,9 +294,9 @@ class Fgmres {
   GmresOptions options_;
   int block_;
   long n_, n_local_;
-  Array residual_;  ///< b - A x between cycles, the unit vector q within one
-  Array work_;
-  std::vector<Array> V_, Z_;
+  Array& residual_;  ///< b - A x between cycles
+  Array& work_;
+  std::vector<Array>&V_, &Z_;
   std::vector<std::vector<double>> R_;  ///< columns of the Hessenberg matrix, rotated to triangular form
   std::vector<double> g_;
   std::vector<Rotation> rotations_;
@@ -287,14 +314,16 @@ double SolverReport::decades() const {
 }
 
 SolverReport fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& preconditioner,
-                    const double* b, double* x, const GmresOptions& options) {
+                    const double* b, double* x, const GmresOptions& options, GmresWorkspace* workspace) {
+  GmresWorkspace own;
+  GmresWorkspace& space = workspace ? *workspace : own;
   switch (block) {
     case 3:
-      return Fgmres<3>(layout, block, A, preconditioner, options).solve(b, x);
+      return Fgmres<3>(layout, block, A, preconditioner, options, space).solve(b, x);
     case 4:
-      return Fgmres<4>(layout, block, A, preconditioner, options).solve(b, x);
+      return Fgmres<4>(layout, block, A, preconditioner, options, space).solve(b, x);
     default:
-      return Fgmres<0>(layout, block, A, preconditioner, options).solve(b, x);
+      return Fgmres<0>(layout, block, A, preconditioner, options, space).solve(b, x);
   }
 }
 

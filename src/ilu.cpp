@@ -41,12 +41,16 @@ void subtract_product(const float* A, const float* B, float* C) {
       for (int k = 0; k < D; ++k) C[r * D + c] -= A[r * D + k] * B[k * D + c];
 }
 
-/// y = b - sum of the blocks [begin, end) times x; y may be b.
-template <int D>
+/// y = b - sum of the blocks [begin, end) times x, the last one first: what the row before has just found comes
+/// last in the forward sweep and first in the backward one, and is best waited for at the end. y may be b.
+template <int D, bool backward = false>
 void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, const float* x, float* y) {
   const int* cols = A.pattern().cols.data();
   BlockRow<float, D> row;
-  for (int k = begin; k < end; ++k) row.add(A.at(k), x + static_cast<std::size_t>(cols[k]) * D);
+  for (int m = begin; m < end; ++m) {
+    const int k = backward ? begin + end - 1 - m : m;
+    row.add(A.at(k), x + static_cast<std::size_t>(cols[k]) * D);
+  }
   float sum[D];
   row.store(sum);
   for (int r = 0; r < D; ++r) y[r] = b[r] - sum[r];
@@ -93,7 +97,7 @@ void BlockIlu<D>::apply(float* b, float* x) const {
   float rest[D];
   for (int i = LU_.n_rows() - 1; i >= 0; --i) {
     float* xi = x + static_cast<std::size_t>(i) * D;
-    row_residual<D>(LU_, at.diagonal[i] + 1, at.row_ptr[i + 1], xi, x, rest);
+    row_residual<D, true>(LU_, at.diagonal[i] + 1, at.row_ptr[i + 1], xi, x, rest);
     multiply<D>(LU_.at(at.diagonal[i]), rest, xi);
   }
 }

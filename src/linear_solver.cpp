@@ -156,7 +156,7 @@ class LinearSolver<B>::Impl {
     }
     gmres.restart = options_.restart;
     gmres.mass_component = B - 1;
-    const SolverReport report = fgmres(layout, B, linear_map(K), preconditioner, rhs_.data(), x, gmres);
+    const SolverReport report = fgmres(layout, B, linear_map(K), preconditioner, rhs_.data(), x, gmres, &workspace_);
     total_iterations += report.iterations;
     return report;
   }
@@ -170,6 +170,7 @@ class LinearSolver<B>::Impl {
   ReusePolicy reuse_;
   double mass_per_momentum_ = 1;
   std::vector<double> rhs_, start_;
+  GmresWorkspace workspace_;
 };
 
 template <int B>

@@ -44,16 +44,21 @@ std::vector<RemoteBlock> rows_of_ghosts(const Pattern& pattern, std::vector<int>
 OverlapPattern make_overlap(const Pattern& pattern) {
   const Layout& nodes = pattern.layout;
   OverlapPattern overlap{pattern.row_ptr, pattern.cols, {}, {}};
-  std::unordered_map<long, int> local;
-  for (int i = 0; i < nodes.n_local(); ++i) local[nodes.global(i)] = i;
+  std::unordered_map<long, int> ghosts;
+  for (int i = nodes.n_owned(); i < nodes.n_local(); ++i) ghosts[nodes.global(i)] = i;
+  const auto local = [&](long global) {
+    const long i = global - nodes.first_global();
+    if (i >= 0 && i < nodes.n_owned()) return static_cast<int>(i);
+    const auto it = ghosts.find(global);
+    return it != ghosts.end() ? it->second : -1;
+  };
   std::vector<int> start;
   const std::vector<RemoteBlock> remote = rows_of_ghosts(pattern, start);
   std::vector<long> wanted;
   for (int g = 0; g < nodes.n_ghost(); ++g) {
     std::vector<std::pair<int, long>> row;
     for (int k = start[g]; k < start[g + 1]; ++k)
-      if (const auto it = local.find(remote[k].column); it != local.end())
-        row.emplace_back(it->second, remote[k].number);
+      if (const int column = local(remote[k].column); column >= 0) row.emplace_back(column, remote[k].number);
     std::sort(row.begin(), row.end());
     for (const auto& [column, number] : row) overlap.cols.push_back(column), wanted.push_back(number);
     overlap.row_ptr.push_back(static_cast<int>(overlap.cols.size()));
