@@ -69,7 +69,7 @@ class Amg::Impl {
     }
     std::ostringstream text;
     text.precision(3);
-    text << "BoomerAMG, " << n_levels << " levels, operator complexity "
+    text << "BoomerAMG" << (by_nodes() ? " by nodes, " : ", ") << n_levels << " levels, operator complexity "
          << sum / hypre_ParCSRMatrixDNumNonzeros(parcsr_);
     return text.str();
   }
@@ -151,8 +151,10 @@ class Amg::Impl {
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, gauss, 3);
     HYPRE_BoomerAMGSetMaxCoarseSize(solver_, 40);
     HYPRE_BoomerAMGSetNumFunctions(solver_, block_);
-    if (block_ > 1 && options_.nodal) HYPRE_BoomerAMGSetNodal(solver_, 1);
+    if (by_nodes()) HYPRE_BoomerAMGSetNodal(solver_, 1);
   }
+
+  [[nodiscard]] bool by_nodes() const { return block_ > 1 && options_.nodal; }
 
   AmgOptions options_;
   int block_ = 1;

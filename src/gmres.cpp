@@ -246,8 +246,8 @@ class Fgmres {
     rotations_.push_back(r);
   }
 
-  /// Whether both blocks of equations are. Divided by their targets they make |g_{k+1}| together, so that they
-  /// need to be told apart only while that is between 1 and sqrt 2.
+  /// Whether both blocks of equations are. Divided by their targets they make |g_{k+1}| together, so that
+  /// they need to be told apart only while that is between 1 and sqrt 2.
   [[nodiscard]] bool on_target() {
     const double g = std::abs(g_.back());
     if (g <= 1 || g * g > 2) return g <= 1;

@@ -41,8 +41,9 @@ void subtract_product(const float* A, const float* B, float* C) {
       for (int k = 0; k < D; ++k) C[r * D + c] -= A[r * D + k] * B[k * D + c];
 }
 
-/// y = b - sum of the blocks [begin, end) times x, the last one first: what the row before has just found comes
-/// last in the forward sweep and first in the backward one, and is best waited for at the end. y may be b.
+/// y = b - sum of the blocks [begin, end) times x, the last one first: what the row before has just found
+/// comes last in the forward sweep and first in the backward one, and is best waited for at the end. y may be
+/// b.
 template <int D, bool backward = false>
 void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, const float* x, float* y) {
   const int* cols = A.pattern().cols.data();

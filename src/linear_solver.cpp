@@ -156,7 +156,8 @@ class LinearSolver<B>::Impl {
     }
     gmres.restart = options_.restart;
     gmres.mass_component = B - 1;
-    const SolverReport report = fgmres(layout, B, linear_map(K), preconditioner, rhs_.data(), x, gmres, &workspace_);
+    const SolverReport report =
+        fgmres(layout, B, linear_map(K), preconditioner, rhs_.data(), x, gmres, &workspace_);
     total_iterations += report.iterations;
     return report;
   }

@@ -92,5 +92,6 @@ TEST(SchurParts, TheViscousNumberIsStricterForOrderTwo) {
   const double nu = 0.2 / 3.0, c = 5.0, h = 0.25;
   EXPECT_NEAR(UniformFlow<Quad1>({1.0, 0.0}, c).parts.viscous_number, nu / (c * h * h), 1e-12);
   EXPECT_NEAR(UniformFlow<Quad2>({1.0, 0.0}, c).parts.viscous_number, 16.0 * nu / (c * h * h), 1e-12);
+  EXPECT_EQ(UniformFlow<Quad2>({1.0, 0.0}, c).parts.order, 2);
 }
 }  // namespace

@@ -94,6 +94,37 @@ TEST(Fgmres, StopsEarlierWhereAnAbsoluteTargetAllowsIt) {
   EXPECT_LE(loose.residual().momentum, 1e-1);
 }
 
+// Neither one later, nor too early, so that a restart has to make up for it with another product.
+TEST(Fgmres, StopsAtTheFirstIterationThatMeetsBothTargets) {
+  for (double relative = 0.3; relative > 1e-4; relative *= 0.7) {
+    System s, shorter;
+    GmresOptions o = tight();
+    o.target = {{relative, 0.5 * relative}, {}};
+    int products = 0;
+    const LinearMap A = [&](double* x, double* y) { s.model.K.apply(x, y), ++products; };
+    const SolverReport report = fgmres(s.layout(), B, A, s.identity(), s.b.data(), s.x.data(), o);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(products, report.iterations + 1);
+    o.max_iterations = report.iterations - 1;
+    EXPECT_FALSE(shorter.solve(o, shorter.identity()).converged) << relative;
+  }
+}
+
+TEST(Fgmres, AWorkspaceMayServeOneSystemAfterAnother) {
+  GmresWorkspace space;
+  for (int cells : {5, 3, 4}) {
+    const test::StokesModel<2> model({.cells = cells, .wind = 2});
+    const std::vector<double> b =
+        test::scatter(model.grid.layout, B, test::some_vector(model.grid.layout.n_global() * B));
+    const LinearMap identity = [&](double* r, double* z) { std::copy_n(r, b.size(), z); };
+    std::vector<double> x[2] = {std::vector<double>(b.size(), 0.0), std::vector<double>(b.size(), 0.0)};
+    for (GmresWorkspace* given : {&space, static_cast<GmresWorkspace*>(nullptr)})
+      fgmres(model.grid.layout, B, linear_map(model.K), identity, b.data(), x[given ? 0 : 1].data(), tight(),
+             given);
+    EXPECT_EQ(x[0], x[1]);
+  }
+}
+
 TEST(Fgmres, AVanishingMassResidualIsMeasuredByTheMomentum) {
   System s(1, 0);
   GmresOptions o = tight_options();

@@ -136,10 +136,12 @@ TEST(SaddlePreconditioner, GaussSeidelServesSmallTimeSteps) {
 }
 
 template <int B>
-std::string choice(double viscosity) {
+std::string choice(double viscosity, int order = 1) {
   StokesModel<B - 1> model({.cells = 4, .viscosity = viscosity});
   SaddlePreconditioner<B> P;
-  P.update(model.K, schur_parts(model));
+  SchurParts parts = schur_parts(model);
+  parts.order = order;
+  P.update(model.K, parts);
   return P.description();
 }
 
@@ -147,6 +149,11 @@ TEST(SaddlePreconditioner, ChoosesTheVelocitySolverByTheViscousNumber) {
   EXPECT_NE(choice<3>(1e-3).find("velocity: ILU"), std::string::npos);
   EXPECT_EQ(choice<3>(1e3).find("velocity: ILU"), std::string::npos);
   EXPECT_NE(choice<4>(1e-3).find("velocity: ILU"), std::string::npos);
+}
+
+TEST(SaddlePreconditioner, CoarsensByNodesForCellsOfOrderOneOnly) {
+  EXPECT_NE(choice<3>(1e3, 1).find("by nodes"), std::string::npos);
+  EXPECT_EQ(choice<3>(1e3, 2).find("by nodes"), std::string::npos);
 }
 
 TEST(SaddlePreconditioner, RefusesWhatDoesNotFit) {

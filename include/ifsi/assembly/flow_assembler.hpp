@@ -215,6 +215,7 @@ SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFie
                    .laplacian = BlockCsr<1>(pattern_),
                    .convection = BlockCsr<1>(pattern_),
                    .viscous_number = 0.0,
+                   .order = Element::order,
                    .steady = steady};
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
     for (int q = 0; q < Rule::n; ++q) {

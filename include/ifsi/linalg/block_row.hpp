@@ -48,8 +48,10 @@ class BlockRow {
       typedef T Quad __attribute__((vector_size(4 * sizeof(T))));
       Quad q;
       std::memcpy(&q, x, sizeof q);
-      if constexpr (lanes == 8) return __builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3);
-      else return __builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+      if constexpr (lanes == 8)
+        return __builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3);
+      else
+        return __builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
     }
   }
 

@@ -22,6 +22,7 @@ struct SchurParts {
   /// Max over the cells of mu / (rho c h^2): how far the velocity block is from a mass matrix. h is the
   /// distance of neighbouring nodes, half of it in cells of order 2. Infinite in steady flow.
   double viscous_number = 0;
+  int order = 1;        ///< of the shape functions
   bool steady = false;  ///< no inertia: N^-1 alone is not part of S^-1
 };
 
