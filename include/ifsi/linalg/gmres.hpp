@@ -51,8 +51,8 @@ struct GmresOptions {
   double mass_per_momentum = 1;
 };
 
-/// What a solve works in. Kept from one solve to the next it need not be asked of the system again, which
-/// costs a twentieth of a solve.
+/// What a solve works in. Kept from one solve to the next it need not be asked of the system page by page
+/// again.
 struct GmresWorkspace {
   AlignedVector<double> residual, work;
   std::vector<AlignedVector<double>> basis, directions;
