@@ -8,25 +8,29 @@ namespace ifsi {
 
 /// Sums K_ij x_j over the blocks of a row, blocks row-major. Every entry of a block has its own accumulator,
 /// so that no addition waits for another; the columns are added up once per row, in store(). Two to four
-/// columns: the entries of a block fill the lanes of registers one after the other, and x is repeated along
+/// columns: the entries of a block fill registers of four lanes one after the other, and x is repeated along
 /// them. The compiler is told, because left alone it transposes.
 template <class T, int B>
 class BlockRow {
  public:
   void add(const T* K, const T* x) {
-    const Register factors = repeat(x);
-    for (int m = 0; m < n_registers; ++m) {
-      Register entries;
-      std::memcpy(&entries, K + m * lanes, sizeof entries);
-      sum_[m] += entries * factors;
+    if constexpr (B == 2) add(0, K, Register{x[0], x[1], x[0], x[1]});
+    if constexpr (B == 3) {
+      add(0, K, Register{x[0], x[1], x[2], x[0]});
+      add(1, K, Register{x[1], x[2], x[0], x[1]});
+      last_ += K[8] * x[2];
     }
-    if constexpr (n_registers * lanes < B * B) last_ += K[B * B - 1] * x[B - 1];
+    if constexpr (B == 4) {
+      Register columns;
+      std::memcpy(&columns, x, sizeof columns);
+      for (int m = 0; m < n_registers; ++m) add(m, K, columns);
+    }
   }
   /// y = the row's sum.
   void store(T* y) const {
     T entries[B * B];
     std::memcpy(entries, sum_, sizeof sum_);
-    if constexpr (n_registers * lanes < B * B) entries[B * B - 1] = last_;
+    if constexpr (B == 3) entries[8] = last_;
     for (int r = 0; r < B; ++r) {
       y[r] = entries[r * B];
       for (int c = 1; c < B; ++c) y[r] += entries[r * B + c];
@@ -35,28 +39,19 @@ class BlockRow {
 
  private:
   static_assert(B >= 2 && B <= 4);
-  static constexpr int bytes = B == 4 ? 64 : B == 3 ? 8 * sizeof(T) : 4 * sizeof(T);
-  static constexpr int lanes = bytes / sizeof(T);
-  static constexpr int n_registers = B * B / lanes;
-  typedef T Register __attribute__((vector_size(bytes)));
+  static constexpr int n_registers = B * B / 4;
+  typedef T Register __attribute__((vector_size(4 * sizeof(T))));
 
-  /// x_0 .. x_{B-1}, x_0 .. as far as the lanes go, which are a multiple of B or, for B = 3, 8.
-  static Register repeat(const T* x) {
-    if constexpr (B == 2) return Register{x[0], x[1], x[0], x[1]};
-    if constexpr (B == 3) return Register{x[0], x[1], x[2], x[0], x[1], x[2], x[0], x[1]};
-    if constexpr (B == 4) {
-      typedef T Quad __attribute__((vector_size(4 * sizeof(T))));
-      Quad q;
-      std::memcpy(&q, x, sizeof q);
-      if constexpr (lanes == 8)
-        return __builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3);
-      else
-        return __builtin_shufflevector(q, q, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
-    }
+  /// Part m of the block times the x of its columns. By reference: how a register is passed depends on the
+  /// processor.
+  void add(int m, const T* K, const Register& factors) {
+    Register entries;
+    std::memcpy(&entries, K + 4 * m, sizeof entries);
+    sum_[m] += entries * factors;
   }
 
   Register sum_[n_registers] = {};
-  T last_ = 0;
+  T last_ = 0;  ///< the ninth entry of B = 3
 };
 
 template <class T>
