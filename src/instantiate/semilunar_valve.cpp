@@ -4,8 +4,9 @@ namespace ifsi {
 
 void run_semilunar_valve(Run& run, const ValveOptions& options, const std::string& data) {
   const NeoHookean law(Lame::from_young(options.E, options.nu));
-  if (!options.law.is_sheet()) return run_semilunar_valve<Hex2, Displacement>(run, options, data, law);
-  const Vec<double, 3> unused = {0.0, 0.0, 1.0};  // each point has its own normal
+  const Vec<double, 3> unused = {0.0, 0.0, 1.0};  // each point has its own direction
+  if (!options.law.is_sheet())
+    return run_semilunar_valve<Hex2, Fibred>(run, options, data, TensionFibres(law, options.fibres, unused));
   run_semilunar_valve<Hex2, Sheet>(run, options, data, options.law.sheet(law, unused));
 }
 

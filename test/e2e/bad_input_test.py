@@ -89,6 +89,12 @@ class BadInput(unittest.TestCase):
                             CONFIGURATION, "nodes of the leaflets lie outside of the vessel by up to 0.2",
                             "solid.protrusion_max = 0.08")
 
+    def test_seals_that_mean_nothing(self):
+        self.assert_refused(run("semilunar_valve", *settings(contact__seal=-1)), CONFIGURATION,
+                            "contact.seal = -1 is out of range")
+        self.assert_refused(run("semilunar_valve", *settings(solid__fibres=-1)), CONFIGURATION,
+                            "solid.fibres = -1 is out of range")
+
     def test_flow_curve_that_jumps_back(self):
         with folder() as scratch:
             file = scratch / "flow.csv"

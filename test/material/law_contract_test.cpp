@@ -38,6 +38,10 @@ template <>
 CircumferentialFibre make() {
   return CircumferentialFibre(0.9, {0.2, -0.3});
 }
+template <>
+TensionFibres<NeoHookean> make() {
+  return {NeoHookean(Lame{1.3, 2.1}), 1.7, {0.6, 0.8, 0.0}};
+}
 
 template <>
 ThinSheet<NeoHookean> make() {
@@ -114,7 +118,8 @@ using All =
                      Case<UncoupledNeoHookean, 2, 2>, Case<UncoupledNeoHookean, 3, 3>,
                      Case<MooneyRivlin, 2, 2>, Case<MooneyRivlin, 3, 3>, Case<Yeoh, 2, 2>, Case<Yeoh, 3, 3>,
                      Case<CircumferentialFibre, 2, 2>, Case<CircumferentialFibre, 3, 3>,
-                     Case<CircumferentialFibre, 3, 2>, Case<ThinSheet<NeoHookean>, 2, 2>,
+                     Case<CircumferentialFibre, 3, 2>, Case<TensionFibres<NeoHookean>, 2, 2>,
+                     Case<TensionFibres<NeoHookean>, 3, 3>, Case<ThinSheet<NeoHookean>, 2, 2>,
                      Case<ThinSheet<NeoHookean>, 3, 3>, Case<ThinSheet<StVenantKirchhoff>, 2, 2>>;
 TYPED_TEST_SUITE(LawContract, All);
 

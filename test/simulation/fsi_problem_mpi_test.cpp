@@ -458,6 +458,89 @@ TEST(FsiProblem, ContactHoldsBodiesApart) {
   EXPECT_LT(tangent_error(with), 2e-4);
 }
 
+/// Two leaflets that leave a gap of 1.8 cells between them, in a channel driven by pressure: all of it, or
+/// its upper half.
+struct Narrow {
+  Mesh<Quad1> mesh;
+  Probed problem;
+
+  Narrow(Communicator comm, double seal, bool whole)
+      : mesh(distribute(box<Quad1>({0.0, whole ? -0.5 : 0.0}, {2.0, 0.5}, {20, whole ? 10 : 5}), comm)),
+        problem(mesh, flow(), options(seal), bodies(whole), boundary(whole)) {
+    if (seal > 0.0 && !whole) problem.add_seal_mirror({{0.0, 0.0}, {0.0, 1.0}, true});
+  }
+  [[nodiscard]] static FlowOptions flow() {
+    FlowOptions options = flow_options();
+    options.rho_inf = 1.0;  // so that the balance of momentum closes
+    return options;
+  }
+  [[nodiscard]] static FsiOptions options(double seal) {
+    FsiOptions fsi = fsi_options(1.0);
+    fsi.seal = seal, fsi.seal_range = 5.0;
+    return fsi;
+  }
+  [[nodiscard]] static std::vector<Body> bodies(bool whole) {
+    std::vector<Body> list;
+    const auto add = [&](double low, double high) {
+      list.emplace_back(
+          "leaflet", box<Quad1>({0.95, low}, {1.05, high}, {2, 8}), NeoHookean(Lame::from_young(2e6, 0.4)),
+          Body::Parameters{.rho_s = 1.0, .rho_f = 1.0, .mu_f = 0.1, .mu_s = 0.0, .gravity = {}});
+    };
+    add(0.13, 0.5);
+    if (whole) add(-0.5, -0.13);
+    return list;
+  }
+  [[nodiscard]] static FlowBoundary<2> boundary(bool whole) {
+    FlowBoundary<2> b;
+    b.pressure("left", [](double t) { return 50.0 * std::min(1.0, 5.0 * t); });
+    b.traction_free("right"), b.no_slip("top");
+    whole ? b.no_slip("bottom") : b.slip("bottom");
+    return b;
+  }
+  [[nodiscard]] double leak() const {
+    return boundary_flux<Cartesian>(mesh, mesh.boundary("right"), problem.solution());
+  }
+};
+
+// Friction in the gap holds the fluid back, whether what is beyond it is a body or an image, with an exact
+// tangent and balances that close; it does not depend on the ranks.
+TEST(FsiProblem, SealHoldsBackTheFluidInAGap) {
+  constexpr double seal = 2e3;
+  Narrow whole(Communicator(), seal, true), half(Communicator(), seal, false),
+      same(Communicator(MPI_COMM_SELF), seal, false), open(Communicator(), 0.0, false);
+  Balances<Probed> of_whole(whole.problem), of_half(half.problem);
+  for (int k = 0; k < 5; ++k) {
+    for (Narrow* scene : {&whole, &half, &same, &open}) {
+      const StepReport report = scene->problem.step(0.05);
+      ASSERT_TRUE(report.converged) << k << " " << report.failure;
+    }
+    for (Balances<Probed>* balances : {&of_whole, &of_half}) {
+      const auto row = balances->observe(0.05);
+      EXPECT_NEAR(row[6], 0.0, 1e-4 * 50.0) << k;
+      EXPECT_GT(row[4], -1e-3 * row[0]) << k;  // nothing is gained
+    }
+  }
+  for (std::size_t k = 0; k < same.problem.solids().displacement().size(); ++k)
+    EXPECT_NEAR(half.problem.solids().displacement()[k], same.problem.solids().displacement()[k], 1e-9);
+  // Up to k_p: a gap point on the line of symmetry lies in one of the two cells beside it.
+  EXPECT_NEAR(whole.leak(), 2.0 * half.leak(), 0.05 * whole.leak());
+  EXPECT_NEAR(whole.problem.solids().seal_power(), 2.0 * half.problem.solids().seal_power(),
+              0.05 * whole.problem.solids().seal_power());
+  EXPECT_GT(half.problem.solids().seal_power(), 0.0);
+  EXPECT_LT(half.leak(), 0.05 * open.leak());
+  EXPECT_LT(tangent_error(half.problem), 2e-4);
+  EXPECT_LT(tangent_error(whole.problem), 2e-4);
+}
+
+TEST(FsiProblem, SealsThatCannotWorkAreRefused) {
+  const auto mesh = channel_mesh(Communicator());
+  FsiOptions fsi = fsi_options(0.0, "exact");
+  fsi.seal = 1.0;
+  EXPECT_THROW(Probed(mesh, flow_options(), fsi), Error);
+  Probed without(mesh, flow_options(), fsi_options(0.0));
+  EXPECT_THROW(without.add_seal_mirror({{0.0, 0.5}, {0.0, 1.0}, true}), Error);
+}
+
 TEST(FsiProblem, ContactThatCannotWorkIsRefused) {
   const auto mesh = channel_mesh(Communicator());
   FsiOptions fsi = fsi_options(0.0);

@@ -20,11 +20,16 @@ class SolidCells {
       offsets_.push_back(static_cast<int>(nodes_.size()));
     }
   }
+  void append(std::span<const int> cell) {
+    nodes_.insert(nodes_.end(), cell.begin(), cell.end());
+    offsets_.push_back(static_cast<int>(nodes_.size()));
+  }
   /// Keeps the first n cells.
   void truncate(int n) {
     offsets_.resize(n + 1);
     nodes_.resize(offsets_.back());
   }
+  bool operator==(const SolidCells&) const = default;
   [[nodiscard]] int size() const { return static_cast<int>(offsets_.size()) - 1; }
   [[nodiscard]] std::span<const int> operator[](int cell) const {
     return {nodes_.data() + offsets_[cell], nodes_.data() + offsets_[cell + 1]};

@@ -32,6 +32,8 @@ struct FsiOptions {
   double max_change = 1.0;
   double contact_range = 0.0;     ///< where surfaces begin to repel each other, in fluid spacings; 0: never
   double contact_pressure = 0.0;  ///< of flat surfaces half of the range apart (eq. 33)
+  double seal = 0.0;              ///< resistance of narrow gaps (eq. 42); 0: none
+  double seal_range = 2.0;        ///< gap from which on there is none, in fluid spacings
   /// Layers of fluid nodes around the cut cells that are solved for directly. -1: two; none in space at s =
   /// 1, where they cost more than all else and save no iterations.
   int patch_layers = -1;
@@ -51,6 +53,12 @@ struct FsiOptions {
                non_negative);
     params.add("contact.pressure", contact_pressure, "force/area",
                "pressure between flat surfaces half of the range apart: what they must hold", non_negative);
+    params.add(
+        "contact.seal", seal, "mass/(length^2 time)",
+        "resistance to flow along gaps between surfaces that the mesh cannot resolve, per area (0: none)",
+        non_negative);
+    params.add("contact.seal_range", seal_range, "-", "gap in fluid spacings from which on there is none",
+               positive);
     params.add("coupling.patch_layers", patch_layers, "-",
                "layers around the cut cells solved for directly (-1: by dimension and s)", {-1, 20});
     params.add_choice("coupling.base", linear.base, {"auto", "direct", "gmres"},
@@ -88,6 +96,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
     if (!may_protrude) C_.require_all_found("solid nodes");
     n_held_ = C_.lost().size();
     if (fsi_.contact_range > 0.0) set_contact();
+    if (fsi_.seal > 0.0) set_seal();
   }
 
   /// A plane that the bodies may not pass. \throws Error (configuration) without contact.range.
@@ -95,6 +104,14 @@ class FsiProblem : public FlowProblem<Element, Model> {
     if (!solids_.contact())
       throw Error(ExitCode::configuration, "a contact plane needs contact.range > 0; it is 0");
     solids_.add_plane(plane);
+  }
+
+  /// A symmetry plane behind which the mirror images of the bodies lie: gaps to them are sealed as well.
+  /// \throws Error (configuration) without contact.seal.
+  void add_seal_mirror(const ContactPlane<Flow::dim>& plane) {
+    if (!solids_.seal())
+      throw Error(ExitCode::configuration, "a mirror for seals needs contact.seal > 0; it is 0");
+    solids_.add_mirror(plane);
   }
 
   [[nodiscard]] const ImmersedSolids<Body>& solids() const { return solids_; }
@@ -156,7 +173,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   StepReport step(double dt) {
     begin_step(dt);
     StepReport report;
-    if (C_.lost().size() > n_held_) return report.failure = leaving(), report;
+    if (n_lost_nodes() > n_held_) return report.failure = leaving(), report;
     report = newton(*this, this->options_.newton, this->watch_);
     if (report.converged) check_change(report, dt);
     if (report.converged) {
@@ -242,9 +259,19 @@ class FsiProblem : public FlowProblem<Element, Model> {
  private:
   /// A node predicted outside of the mesh would be held there for good.
   [[nodiscard]] std::string leaving() const {
-    return std::to_string(C_.lost().size() - n_held_) +
+    return std::to_string(n_lost_nodes() - n_held_) +
            " solid nodes are predicted to leave the fluid mesh; expected none but the " +
            std::to_string(n_held_) + " that lie outside from the beginning";
+  }
+
+  /// Nodes in the wall stay there, and no gap opens beside them.
+  void set_seal() {
+    if (fsi_.treatment != "frozen")
+      throw Error(ExitCode::configuration, "contact.seal = " + std::to_string(fsi_.seal) +
+                                               " needs coupling.treatment = frozen; it is " + fsi_.treatment);
+    auto points = solids_.surface_points();
+    std::erase_if(points, [&](const auto& p) { return !C_.row(p.node).found(); });
+    solids_.set_seal({std::move(points), fsi_.seal_range * fluid_spacing(), fsi_.seal});
   }
 
   void set_contact() {
@@ -303,13 +330,27 @@ class FsiProblem : public FlowProblem<Element, Model> {
 
   /// C, cut cells, s-field and the patch for the positions the solids are expected at.
   void place_solids(double dt) {
-    C_.locate(solids_.predicted(dt));
+    locate_points(solids_.with_gap_points(solids_.predicted(dt)));
+    if (solids_.link_gaps()) K_s_.set_cells(solids_.cells());
     cut_.update(C_);
     this->k_p_.assign(mesh().n_cells(), 1.0);
     for (int c : cut_.cells()) this->k_p_[c] = fsi_.k_p;
     if (fraction_at_) this->fraction_ = fraction_at_(C_.positions());
     if (fsi_.s.s_max > 1.0) this->s_ = cut_.stabilisation(fsi_.s);
     update_pattern();
+  }
+
+  /// Nodes and gap points; the ways of those between surfaces in a bulging vessel may lead outside.
+  void locate_points(std::vector<Point> x) {
+    C_.locate(x);
+    const auto outside = std::span(C_.lost()).subspan(n_lost_nodes());
+    if (outside.empty()) return;
+    solids_.give_up_gaps(outside, x);
+    C_.locate(x);
+  }
+  [[nodiscard]] std::size_t n_lost_nodes() const {
+    const auto& lost = C_.lost();
+    return std::lower_bound(lost.begin(), lost.end(), solids_.n_nodes()) - lost.begin();
   }
 
   /// The pattern of C K_s C^T, and the patch on it, if a node has changed its fluid cell.
@@ -329,7 +370,10 @@ class FsiProblem : public FlowProblem<Element, Model> {
   void move_solids() {
     this->state_.new_velocities(new_v_);
     settled_ = true;
-    if (fsi_.treatment == "frozen") return solids_.set_velocity(C_.velocities(new_v_.data(), Flow::B));
+    if (fsi_.treatment == "frozen") {
+      if (solids_.seal()) solids_.set_gap_velocity(C_.velocities(this->state_.u.data(), Flow::B));
+      return solids_.set_velocity(C_.velocities(new_v_.data(), Flow::B));
+    }
     constexpr int max_iterations = 40, undamped = 10;
     std::vector<Point> v = solids_.new_velocity();
     for (int k = 0; k < max_iterations; ++k) {
@@ -358,7 +402,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
       update_pattern();
     }
     if (tangent) update_pattern(), K_s_.set_zero();
-    R_s_.assign(solids_.n_nodes(), Point::zero());
+    R_s_.assign(solids_.n_points(), Point::zero());
     const DeformationReport report =
         solids_.assemble(K_s_.relevant_cells(), R_s_, tangent,
                          [&](int i, const Block* K) { exact ? K_s_.add(i, K, P_) : K_s_.add(i, K); });
@@ -396,7 +440,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
     if (C_.lost().empty()) return sum;
     std::vector<int> cells(solids_.cells().size());
     std::iota(cells.begin(), cells.end(), 0);
-    std::vector<Point> R(solids_.n_nodes(), Point::zero());
+    std::vector<Point> R(solids_.n_points(), Point::zero());
     solids_.assemble(cells, R, false, [](int, const Mat<double, Flow::dim>*) {});
     for (int p : C_.lost()) sum += R[p];
     return sum;

@@ -13,6 +13,7 @@
 #include "ifsi/assembly/solid_body.hpp"
 #include "ifsi/coupling/solid_cells.hpp"
 #include "ifsi/coupling/surface_contact.hpp"
+#include "ifsi/coupling/surface_seal.hpp"
 #include "ifsi/time/generalized_alpha.hpp"
 
 namespace ifsi {
@@ -32,16 +33,18 @@ class ImmersedSolids {
       cells_.append(body.mesh().cells, first_node_.back());
       X_.insert(X_.end(), body.mesh().points.begin(), body.mesh().points.end());
     }
-    n_body_cells_ = cells_.size();
+    n_body_cells_ = first_link_ = cells_.size();
     for (auto* x : {&u_, &v_, &a_, &u_old_, &v_old_, &a_old_, &u_alpha_, &v_alpha_, &a_alpha_})
       x->assign(X_.size() * dim, 0.0);
   }
 
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
   [[nodiscard]] std::vector<Body>& bodies() { return bodies_; }
-  /// The cells of all bodies, then the contacts, which couple nodes as cells do.
+  /// The cells of all bodies, then the contacts and the links of the seal, which couple nodes as cells do.
   [[nodiscard]] const SolidCells& cells() const { return cells_; }
   [[nodiscard]] int n_nodes() const { return static_cast<int>(X_.size()); }
+  /// Nodes and, behind them, the gap points of the seal.
+  [[nodiscard]] int n_points() const { return n_nodes() + (seal_ ? seal_->n_gap_points() : 0); }
   [[nodiscard]] int first_node(int body) const { return first_node_[body]; }
   /// Displacement and velocity of the last completed level, dim numbers per node.
   [[nodiscard]] std::span<const double> displacement() const { return u_old_; }
@@ -109,10 +112,50 @@ class ImmersedSolids {
   /// Finds the contacts for the level where the equations hold; says whether cells() has changed.
   bool update_contact() {
     if (!contact_ || !contact_->update(points(u_alpha_, X_))) return false;
-    cells_.truncate(n_body_cells_);
-    cells_.append(contact_->pairs());
-    cells_.append(contact_->singles());
+    list_cells();
     return true;
+  }
+
+  /// Holds the fluid back in narrow gaps between surfaces, see SurfaceSeal.
+  void set_seal(SurfaceSeal<dim> seal) {
+    seal_.emplace(std::move(seal));
+    gap_v_.assign(seal_->n_gap_points(), Point::zero());
+  }
+  [[nodiscard]] const std::optional<SurfaceSeal<dim>>& seal() const { return seal_; }
+  void add_mirror(const ContactPlane<dim>& plane) { seal_->add_mirror(plane); }
+  /// Finds the gaps at these positions of the nodes, and appends the gap points to them.
+  [[nodiscard]] std::vector<Point> with_gap_points(std::vector<Point> x) {
+    if (!seal_) return x;
+    const std::vector<Point> places = seal_->find(x);
+    x.insert(x.end(), places.begin(), places.end());
+    return x;
+  }
+  /// Lists the links of the last gaps found; says whether cells() has changed.
+  bool link_gaps() {
+    if (!seal_) return false;
+    const SolidCells old = cells_;
+    list_cells();
+    return cells_ != old;
+  }
+  /// Gives up gaps whose points, by their numbers among all points, lie outside of the fluid, and takes those
+  /// back to their nodes. \param x positions of all points
+  void give_up_gaps(std::span<const int> outside, std::span<Point> x) {
+    std::vector<char> is_outside(seal_->n_gap_points(), 0);
+    for (int p : outside) {
+      is_outside[p - n_nodes()] = 1;
+      x[p] = x[seal_->node(p - n_nodes())];
+    }
+    seal_->keep_links([&](int k) { return !is_outside[k]; });
+  }
+  /// Velocities of the fluid, where the equations hold, at all points; those at the gap points are kept.
+  void set_gap_velocity(std::span<const Point> v) { gap_v_.assign(v.begin() + n_nodes(), v.end()); }
+  /// What friction in the gaps takes per time, where the equations hold.
+  [[nodiscard]] double seal_power() const {
+    double power = 0.0;
+    if (seal_)
+      for (const auto& link : seal_->links())
+        power += SurfaceSeal<dim>::term(link, velocities_alpha(seal_->nodes(link, n_nodes()))).power;
+    return power;
   }
   /// Nodes on the surfaces of all bodies.
   [[nodiscard]] std::vector<SurfacePoint<dim>> surface_points() const {
@@ -130,8 +173,8 @@ class ImmersedSolids {
   [[nodiscard]] double alpha_f() const { return levels_.alpha_f; }
   void end_step() { u_old_ = u_, v_old_ = v_, a_old_ = a_; }
 
-  /// Residual (and tangent, when `matrix` takes it) of the listed cells: R is added to, `matrix(i, K)`
-  /// receives the place i in the list and the cell's blocks.
+  /// Residual (and tangent, when `matrix` takes it) of the listed cells: R, of all points, is added to,
+  /// `matrix(i, K)` receives the place i in the list and the cell's blocks.
   template <class MatrixSink>
   DeformationReport assemble(std::span<const int> cells, std::span<Point> R, bool tangent,
                              MatrixSink&& matrix) const {
@@ -163,6 +206,7 @@ class ImmersedSolids {
       add_loads(static_cast<int>(b), list, offset, R, tangent, matrix);
     }
     if (contact_) add_contact(cells, R, tangent, matrix);
+    if (seal_) add_seal(cells, R, tangent, matrix);
     return worst;
   }
 
@@ -252,7 +296,7 @@ class ImmersedSolids {
   void add_contact(std::span<const int> cells, std::span<Point> R, bool tangent, MatrixSink&& matrix) const {
     const std::vector<Point> x = points(u_alpha_, X_);
     const auto first = std::lower_bound(cells.begin(), cells.end(), n_body_cells_) - cells.begin();
-    for (std::size_t i = first; i < cells.size(); ++i) {
+    for (std::size_t i = first; i < cells.size() && cells[i] < first_link_; ++i) {
       auto term = contact_->term(cells[i] - n_body_cells_, x);
       const auto nodes = cells_[cells[i]];
       for (std::size_t a = 0; a < nodes.size(); ++a) R[nodes[a]] += term.R[a];
@@ -260,6 +304,38 @@ class ImmersedSolids {
       for (auto& K : term.K) K = slopes().u * K;
       matrix(static_cast<int>(i), term.K.data());
     }
+  }
+
+  /// Those of the listed cells that are links of the seal (eq. 42).
+  template <class MatrixSink>
+  void add_seal(std::span<const int> cells, std::span<Point> R, bool tangent, MatrixSink&& matrix) const {
+    const auto first = std::lower_bound(cells.begin(), cells.end(), first_link_) - cells.begin();
+    for (std::size_t i = first; i < cells.size(); ++i) {
+      const auto nodes = cells_[cells[i]];
+      auto term = SurfaceSeal<dim>::term(seal_->links()[cells[i] - first_link_], velocities_alpha(nodes));
+      for (std::size_t a = 0; a < nodes.size(); ++a) R[nodes[a]] += term.R[a];
+      if (!tangent) continue;
+      for (auto& K : term.K) K = slopes().v * K;
+      matrix(static_cast<int>(i), term.K.data());
+    }
+  }
+  /// Velocities of points where the equations hold.
+  [[nodiscard]] std::vector<Point> velocities_alpha(std::span<const int> nodes) const {
+    std::vector<Point> v;
+    for (int p : nodes) {
+      v.push_back(p < n_nodes() ? Point{} : gap_v_[p - n_nodes()]);
+      for (int k = 0; p < n_nodes() && k < dim; ++k) v.back()[k] = v_alpha_[p * dim + k];
+    }
+    return v;
+  }
+
+  /// What couples nodes beside the bodies' own cells.
+  void list_cells() {
+    cells_.truncate(n_body_cells_);
+    if (contact_) cells_.append(contact_->pairs()), cells_.append(contact_->singles());
+    first_link_ = cells_.size();
+    if (!seal_) return;
+    for (const auto& link : seal_->links()) cells_.append(seal_->nodes(link, n_nodes()));
   }
 
   /// Calls visit(body, nodes, area of each) for the faces of all surfaces.
@@ -307,8 +383,10 @@ class ImmersedSolids {
   std::vector<Body> bodies_;
   std::vector<int> first_node_, first_cell_;
   SolidCells cells_;
-  int n_body_cells_ = 0;
+  int n_body_cells_ = 0, first_link_ = 0;
   std::optional<SurfaceContact<dim>> contact_;
+  std::optional<SurfaceSeal<dim>> seal_;
+  std::vector<Point> gap_v_;  ///< of the fluid at the gap points, where the equations hold
   std::vector<Point> X_;
   GeneralizedAlpha levels_, rates_;
   double dt_ = 1.0;

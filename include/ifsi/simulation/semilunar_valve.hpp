@@ -25,6 +25,7 @@ struct ValveOptions {
   double spacing = 0.65, protrusion_max = 0.08;
   int layers = 1;
   double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 2e6, nu = 0.4, backflow = 1.0;
+  double fibres = 0.0;
   double z_before = -1.0, z_behind = 5.0, picture_every = 0.02;
   TimeOptions time;
   FlowOptions flow;
@@ -62,6 +63,8 @@ struct ValveOptions {
     params.add("solid.rho", rho_s, "g/cm^3", "density of the leaflets", positive);
     params.add("solid.E", E, "dyn/cm^2", "Young's modulus", positive);
     params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
+    params.add("solid.fibres", fibres, "dyn/cm^2",
+               "modulus of fibres between the commissures, slack in compression (eq. 43)", non_negative);
     law.declare(params);
     params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
     params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);

@@ -62,6 +62,12 @@ inline FlowBoundary<3> valve_boundary(const ValveOptions& o, const FlowCurve& cu
   return boundary;
 }
 
+/// The plane of symmetry between two leaflets; the sector lies on the side of its normal.
+inline ContactPlane<3> commissure_plane() {
+  const double angle = 0.5 * AorticRoot::third;
+  return {{0.0, 0.0, 0.0}, {std::sin(angle), -std::cos(angle), 0.0}, true};
+}
+
 /// A valve in motion: what is recorded in every step.
 template <class Problem>
 class ValveHistory {
@@ -78,7 +84,8 @@ class ValveHistory {
         balances_(problem),
         pictures_(run, o.picture_every, {"wall"}) {
     std::vector<Column> columns = ValveCurves::columns();
-    for (const Column& c : {Column{"dt", "s"}, {"elastic_energy", "erg"}, {"lost_nodes", "-"}})
+    for (const Column& c :
+         {Column{"dt", "s"}, {"elastic_energy", "erg"}, {"lost_nodes", "-"}, {"seal_power", "erg/s"}})
       columns.push_back(c);
     for (const Column& c : Balances<Problem>::columns()) columns.push_back(c);
     if (run.restarted()) {
@@ -105,7 +112,8 @@ class ValveHistory {
     curves_.add(s);
     std::vector<double> row = ValveCurves::row(s);
     row.insert(row.end(), {dt, copies * totals.elastic_energy,
-                           static_cast<double>(problem_.interpolation().lost().size())});
+                           static_cast<double>(problem_.interpolation().lost().size()),
+                           copies * problem_.solids().seal_power()});
     for (double x : balances_.observe(dt)) row.push_back(x);
     csv_.row(row);
     pictures_.write(problem_, s.t >= o_.time.end * (1.0 - 1e-10));
@@ -179,6 +187,7 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
   Problem problem(mesh, valve_boundary(o, curve, o.copies() * plug_area(mesh)), o.rho_f, Newtonian{o.mu},
                   std::move(leaflets), o.flow, o.fsi, may_protrude);
   check_protrusion(run, problem, o.protrusion_max);
+  if (o.fsi.seal > 0.0 && o.is_sector()) problem.add_seal_mirror(commissure_plane());
   attach(run, problem);
   ValveHistory<Problem> history(run, problem, o, std::move(free_edges));
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });

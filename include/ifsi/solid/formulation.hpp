@@ -16,7 +16,7 @@ struct CellDeformation {
   std::array<Mat<T, n>, n_points> F;
   std::array<Vec<T, dim>, n_points> X;
   std::array<T, n_points> dV;
-  std::array<Vec<T, n>, n_points> N;  ///< unit normal of a sheet (formulation Sheet only)
+  std::array<Vec<T, n>, n_points> N;  ///< unit normal of a sheet (Sheet), direction of fibres (Fibred)
 };
 
 /// Second derivatives of an energy psi(F, theta).
@@ -39,7 +39,7 @@ Mat<T, 3> cauchy(const Law& law, const Mat<T, n>& F_n, const Vec<T, dim>& X) {
 /// Energy, P and dP/dF from the law at each point on its own: exact for compressible solids, locks towards
 /// incompressibility on elements of order 1.
 struct Displacement {
-  static constexpr bool mean_dilatation = false, sheet = false;
+  static constexpr bool mean_dilatation = false, sheet = false, fibred = false;
 
   template <SolidLaw Law, class T, int n, int dim, int n_points>
   class Response {
@@ -62,7 +62,7 @@ struct Displacement {
 /// A law of thin sheets (eq. 29) on a curved sheet of hexes, whose third local axis runs through the
 /// thickness: the normal at a point is that of its first two.
 struct Sheet {
-  static constexpr bool mean_dilatation = false, sheet = true;
+  static constexpr bool mean_dilatation = false, sheet = true, fibred = false;
 
   template <SolidLaw Law, class T, int n, int dim, int n_points>
   class Response {
@@ -87,6 +87,14 @@ struct Sheet {
     const Law& law_;
     const Cell& cell_;
   };
+};
+
+/// A law with fibres along the first local axis of the cells.
+struct Fibred {
+  static constexpr bool mean_dilatation = false, sheet = false, fibred = true;
+
+  template <SolidLaw Law, class T, int n, int dim, int n_points>
+  using Response = Sheet::Response<Law, T, n, dim, n_points>;  // both pass on a direction
 };
 
 namespace detail {
@@ -168,7 +176,7 @@ class DilatedLaw<Law, T, n, dim> {
 /// functional with dilatation and pressure constant in the cell, both condensed. The energy is
 /// sum_q psi(F_q, theta) dV_q with theta = int J dV / V, the mean volume ratio. For elements of order 1.
 struct MeanDilatation {
-  static constexpr bool mean_dilatation = true, sheet = false;
+  static constexpr bool mean_dilatation = true, sheet = false, fibred = false;
 
   template <SolidLaw Law, class T, int n, int dim, int n_points>
   class Response {

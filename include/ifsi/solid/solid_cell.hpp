@@ -146,6 +146,7 @@ class SolidCell {
     }
     deformation_.X[q] = X;
     if constexpr (Formulation::sheet) deformation_.N[q] = unit_normal(J);
+    if constexpr (Formulation::fibred) deformation_.N[q] = unit_tangent(J);
     deformation_.dV[q] = Table::weights[q] * det(J) * Coordinates::measure(X[0]);
     deformation_.F[q] = gradient(q, cell_.u) + Mat<T, n>::identity();
   }
@@ -156,6 +157,14 @@ class SolidCell {
     const Mat<T, dim> G = transpose(inverse(J));  // grad of the third local coordinate in its third column
     const Vec<T, dim> N{G(0, 2), G(1, 2), G(2, 2)};
     return T(1.0 / sqrt(dot(N, N))) * N;
+  }
+
+  /// Of the first local axis.
+  [[nodiscard]] static Vec<T, dim> unit_tangent(const Mat<T, dim>& J) {
+    using std::sqrt;
+    Vec<T, dim> A;
+    for (int i = 0; i < dim; ++i) A[i] = J(i, 0);
+    return T(1.0 / sqrt(dot(A, A))) * A;
   }
 
   /// Reference gradient of a nodal vector field.
