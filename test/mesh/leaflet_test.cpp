@@ -91,10 +91,10 @@ TEST(LeafletMesh, HalfLiesOnItsCutAndIsHalfOfTheWhole) {
   }
   EXPECT_EQ(on_cut, 3 * (2 * 9 + 1));  // nine cells from the attachment to the free edge
   EXPECT_NEAR(2.0 * volume(half.mesh), volume(whole.mesh), 1e-9 * volume(whole.mesh));
-  EXPECT_EQ(half.free_edge.size(), 2u * 10u + 1u);
-  EXPECT_EQ(whole.free_edge.size(), 2u * 20u + 1u);
-  for (std::size_t k = 1; k < half.free_edge.size(); ++k)
-    EXPECT_GT(half.mesh.points[half.free_edge[k]][1], half.mesh.points[half.free_edge[k - 1]][1]);
+  EXPECT_EQ(half.lines.back().size(), 2u * 10u + 1u);
+  EXPECT_EQ(whole.lines.back().size(), 2u * 20u + 1u);
+  for (std::size_t k = 1; k < half.lines.back().size(); ++k)
+    EXPECT_GT(half.mesh.points[half.lines.back()[k]][1], half.mesh.points[half.lines.back()[k - 1]][1]);
 }
 
 TEST(LeafletMesh, OthersAreTheFirstTurned) {

@@ -114,11 +114,12 @@ class LeafletSurface {
   double rim_, y_end_, angle_end_;
 };
 
-/// A leaflet as a mesh, and the nodes of its free edge on the side of the ventricle, in order of a.
+/// A leaflet as a mesh, and its lines b = constant on the side of the ventricle, from attachment to free
+/// edge: nodes in order of a.
 template <class Element>
 struct LeafletMesh {
   GlobalMesh<Element> mesh;
-  std::vector<int> free_edge;
+  std::vector<std::vector<int>> lines;
 };
 
 /// The leaflet whose mid-leaflet plane is at `angle`, or the half of it at a >= 0, whose cut a = 0 lies
@@ -139,10 +140,13 @@ LeafletMesh<Element> leaflet_mesh(const AorticRoot& root, const Leaflet& leaflet
                       {half ? n_a : 2 * n_a, cells(extent[1]), layers});
   mesh.boundary_names = {
       half ? "cut" : "commissure_2", "commissure", "attachment", "free_edge", "ventricle", "aorta"};
+  const int n_b = Element::order * cells(extent[1]);
+  result.lines.resize(n_b + 1);
   for (int p = 0; p < mesh.n_points(); ++p)
-    if (mesh.points[p][1] > 1.0 - 1e-9 && mesh.points[p][2] < -0.5 + 1e-9) result.free_edge.push_back(p);
-  std::sort(result.free_edge.begin(), result.free_edge.end(),
-            [&](int p, int q) { return mesh.points[p][0] < mesh.points[q][0]; });
+    if (mesh.points[p][2] < -0.5 + 1e-9)
+      result.lines[static_cast<int>(std::lround(n_b * mesh.points[p][1]))].push_back(p);
+  for (auto& line : result.lines)
+    std::sort(line.begin(), line.end(), [&](int p, int q) { return mesh.points[p][0] < mesh.points[q][0]; });
   const double cosine = std::cos(angle), sine = std::sin(angle);
   for (auto& x : mesh.points) {
     const double a = x[0], b = x[1];

@@ -2,7 +2,7 @@
 /// \file
 /// Meshes, bodies and time loop of the semilunar valve.
 
-#include <cstdio>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -73,11 +73,11 @@ template <class Problem>
 class ValveHistory {
  public:
   ValveHistory(Run& run, const Problem& problem, const ValveOptions& o,
-               std::vector<std::vector<int>> free_edges)
+               std::vector<std::vector<std::vector<int>>> lines)
       : run_(run),
         problem_(problem),
         o_(o),
-        edges_(std::move(free_edges)),
+        lines_(std::move(lines)),
         before_(problem.mesh(), 2, o.z_before),
         behind_(problem.mesh(), 2, o.z_behind),
         annulus_(problem.mesh(), 2, -0.05),
@@ -121,14 +121,21 @@ class ValveHistory {
   void report_all() const { report(run_, curves_.figures(o_.rho_f), o_.time.end >= 0.5); }
 
  private:
+  /// Of each leaflet the line that encloses least: the free edge, unless it is turned outwards.
   [[nodiscard]] double orifice() const {
     const auto x = problem_.solids().positions();
     double area = 0.0;
-    for (std::size_t k = 0; k < edges_.size(); ++k) {
-      std::vector<Vec<double, 3>> edge;
-      for (int a : edges_[k]) edge.push_back(x[problem_.solids().first_node(static_cast<int>(k)) + a]);
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      const int first = problem_.solids().first_node(static_cast<int>(k));
       const double middle = AorticRoot::third * static_cast<double>(k), half = 0.5 * AorticRoot::third;
-      area += orifice_area(edge, o_.is_sector() ? 0.0 : middle - half, middle + half, o_.root.radius);
+      double smallest = std::numeric_limits<double>::infinity();
+      for (const auto& nodes : lines_[k]) {
+        std::vector<Vec<double, 3>> line;
+        for (int a : nodes) line.push_back(x[first + a]);
+        smallest = std::min(smallest, orifice_area(line, o_.is_sector() ? 0.0 : middle - half, middle + half,
+                                                   o_.root.radius));
+      }
+      area += smallest;
     }
     return o_.copies() * area;
   }
@@ -136,7 +143,7 @@ class ValveHistory {
   Run& run_;
   const Problem& problem_;
   const ValveOptions& o_;
-  std::vector<std::vector<int>> edges_;
+  std::vector<std::vector<std::vector<int>>> lines_;  ///< of each leaflet
   Section<Tet1> before_, behind_, annulus_;
   ValveCurves curves_;
   Balances<Problem> balances_;
@@ -176,12 +183,12 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
   const SolidParameters<3> solid{
       .rho_s = o.rho_s, .rho_f = o.rho_f, .mu_f = o.mu, .mu_s = 0.0, .gravity = {}};
   std::vector<Body> leaflets;
-  std::vector<std::vector<int>> free_edges;
+  std::vector<std::vector<std::vector<int>>> lines;
   for (int k = 0; k < (o.is_sector() ? 1 : 3); ++k) {
     auto leaflet = leaflet_mesh<SolidElement>(o.root, o.leaflet, o.spacing * o.h_valve, o.layers,
                                               o.is_sector(), k * AorticRoot::third);
     leaflets.emplace_back("leaflet " + std::to_string(k + 1), std::move(leaflet.mesh), law, solid);
-    free_edges.push_back(std::move(leaflet.free_edge));
+    lines.push_back(std::move(leaflet.lines));
   }
   constexpr bool may_protrude = true;
   Problem problem(mesh, valve_boundary(o, curve, o.copies() * plug_area(mesh)), o.rho_f, Newtonian{o.mu},
@@ -189,7 +196,7 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
   check_protrusion(run, problem, o.protrusion_max);
   if (o.fsi.seal > 0.0 && o.is_sector()) problem.add_seal_mirror(commissure_plane());
   attach(run, problem);
-  ValveHistory<Problem> history(run, problem, o, std::move(free_edges));
+  ValveHistory<Problem> history(run, problem, o, std::move(lines));
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });
   history.report_all();
 }
