@@ -4,12 +4,12 @@
 //              |              |                      and the plane of its commissures (60 degrees), slip on
 //         2.4  |              |  end of the root     both; model = full: all three.
 //             (  \  |  |  /    ) sinuses
-//          0   |__\_|  |_/____|  nadirs              leaflets 1.6 high, 0.015 thick, E = 2e6, nu = 0.4
+//          0   |__\_|  |_/____|  nadirs              leaflets 1.6 high, 0.015 thick, E = 1.5e6
 //              |              |                      blood: rho = 1.1, mu = 0.036
-//         -4   |______________|  plug flow Q(t)/A    cm, g, s (cgs); after Black et al. (2026), section 4
+//         -4   |______________|  pressure or flow    cm, g, s (cgs); after Black et al. (2026), section 4
 //               diameter 2.8
 //
-// The flow over time is an assumption (data/curves/aortic_flow.csv); so is the geometry, which is idealised.
+// Pressure and flow over time (data/curves) are assumptions; so is the geometry, which is idealised.
 // Metrics: docs/cases.md. There is no reference solution: the checks are ranges of physiology and what the
 // method must hold (volume, det F, regurgitation).
 #include "ifsi/simulation/semilunar_valve.hpp"

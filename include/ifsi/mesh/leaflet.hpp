@@ -23,7 +23,7 @@ struct Leaflet {
   double dip = 0.6;          ///< of the free edge in the middle below the commissures' top
   double thickness = 0.015;  ///<
   double gap = 0.03;         ///< distance of the free edge from the planes of the commissures
-  double rounding = 0.1;     ///< of the free edge: half the width of the hyperbola's middle
+  double rounding = 0.04;    ///< of the free edge: half the width of the hyperbola's middle
   double belly = 0.1;        ///< sag towards the ventricle in the middle of the leaflet
   double protrusion = 0.05;  ///< of the attached edges into the wall
 };

@@ -17,15 +17,15 @@ namespace ifsi {
 struct ValveOptions {
   static constexpr double z_inlet = -4.0;
 
-  std::string model = "sector", drive = "flow", curve;
+  std::string model = "sector", drive = "pressure", curve;
   LawChoice law;
   AorticRoot root;
   Leaflet leaflet;
   double downstream = 11.8, angle = 60.0, h = 0.35, h_valve = 0.12, growth = 0.2, wall_ratio = 0.7;
-  double spacing = 0.65, protrusion_max = 0.08;
+  double spacing = 0.5, protrusion_max = 0.08;
   int layers = 1;
-  double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 2e6, nu = 0.4, backflow = 1.0;
-  double fibres = 0.0;
+  double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 1.5e6, nu = 0.4, backflow = 1.0;
+  double fibres = 1e7;
   double z_before = -1.0, z_behind = 5.0, picture_every = 0.02;
   TimeOptions time;
   FlowOptions flow;
@@ -34,6 +34,7 @@ struct ValveOptions {
   ValveOptions() {
     time.dt = 1e-3, time.end = 1.0, time.adaptive = true, time.dt_max = 2e-3, time.checkpoint_every = 0.1;
     flow.rho_inf = 0.0, flow.newton.rtol = 1e-4;
+    fsi.s.s_max = 1e3, fsi.patch_layers = 0, fsi.seal = 1e4, fsi.seal_range = 4.0;
   }
 
   void declare(Parameters& params) {
@@ -64,7 +65,7 @@ struct ValveOptions {
     params.add("solid.E", E, "dyn/cm^2", "Young's modulus", positive);
     params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
     params.add("solid.fibres", fibres, "dyn/cm^2",
-               "modulus of fibres between the commissures, slack in compression (eq. 43)", non_negative);
+               "modulus of fibres between the commissures (eq. 43); sheets have none", non_negative);
     law.declare(params);
     params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
     params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);
