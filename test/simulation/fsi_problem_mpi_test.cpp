@@ -509,7 +509,7 @@ TEST(FsiProblem, SealHoldsBackTheFluidInAGap) {
   Narrow whole(Communicator(), seal, true), half(Communicator(), seal, false),
       same(Communicator(MPI_COMM_SELF), seal, false), open(Communicator(), 0.0, false);
   Balances<Probed> of_whole(whole.problem), of_half(half.problem);
-  for (int k = 0; k < 5; ++k) {
+  for (int k = 0; k < 3; ++k) {
     for (Narrow* scene : {&whole, &half, &same, &open}) {
       const StepReport report = scene->problem.step(0.05);
       ASSERT_TRUE(report.converged) << k << " " << report.failure;
