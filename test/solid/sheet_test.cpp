@@ -1,5 +1,5 @@
-// On a flat sheet, however it is turned, the normal that a cell finds is the one that the law could have been
-// told.
+// In a flat cell, however it is turned, the normal or the direction of fibres that it finds is the one that
+// the law could have been told.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,13 +10,13 @@
 
 namespace {
 using namespace ifsi;
-using Law = ThinSheet<NeoHookean>;
 using Data = SolidCellData<Hex1, double>;
 using Point = Vec<double, 3>;
 
-template <class Formulation>
-std::array<Point, 8> residual(const Data& data, const Point& normal) {
-  const Law law(NeoHookean(Lame{1.3, 2.1}), normal, 0.05, 0.3);
+const NeoHookean matrix(Lame{1.3, 2.1});
+
+template <class Formulation, class Law>
+std::array<Point, 8> residual(const Data& data, const Law& law) {
   const SolidParameters<3> solid{.rho_s = 1.0, .rho_f = 0.0, .mu_f = 0.0, .mu_s = 0.0, .gravity = {}};
   std::array<Point, 8> R;
   SolidCell<Hex1, Law, Formulation, Cartesian, DefaultQuadrature<Hex1>, double>(data, law).residual(
@@ -24,10 +24,8 @@ std::array<Point, 8> residual(const Data& data, const Point& normal) {
   return R;
 }
 
-TEST(Sheet, FindsTheNormalOfACell) {
-  const double c = std::cos(0.7), s = std::sin(0.7);
-  const Mat<double, 3> Q =
-      Mat<double, 3>{c, 0, s, 0, 1, 0, -s, 0, c} * Mat<double, 3>{1, 0, 0, 0, c, -s, 0, s, c};
+/// A sheared plate along the first two axes, turned by Q and deformed.
+Data turned_cell(const Mat<double, 3>& Q) {
   Data data;
   const int signs[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                            {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
@@ -36,9 +34,42 @@ TEST(Sheet, FindsTheNormalOfACell) {
     for (int i = 0; i < 3; ++i) data.u[a][i] = 0.01 * std::sin(3.0 * a + 2.0 * i);
     data.v[a] = data.a[a] = Point::zero();
   }
-  const auto found = residual<Sheet>(data, {1.0, 0.0, 0.0});  // which it must not use
-  const auto told = residual<Displacement>(data, Q * Point{0.0, 0.0, 1.0});
+  return data;
+}
+
+void expect_same(const std::array<Point, 8>& found, const std::array<Point, 8>& told) {
   for (int a = 0; a < 8; ++a)
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[a][i], told[a][i], 1e-13) << "node " << a;
+}
+
+const double c = std::cos(0.7), s = std::sin(0.7);
+const Mat<double, 3> Q =
+    Mat<double, 3>{c, 0, s, 0, 1, 0, -s, 0, c} * Mat<double, 3>{1, 0, 0, 0, c, -s, 0, s, c};
+const Point wrong = {1.0, 0.0, 0.0};  // which the cell must not use
+
+TEST(Sheet, FindsTheNormalOfACell) {
+  const Data data = turned_cell(Q);
+  const auto law = [](const Point& normal) { return ThinSheet(matrix, normal, 0.05, 0.3); };
+  expect_same(residual<Sheet>(data, law(wrong)), residual<Displacement>(data, law(Q * Point{0.0, 0.0, 1.0})));
+}
+
+TEST(Fibred, FindsTheFirstAxisOfACell) {
+  const Data data = turned_cell(Q);
+  const auto law = [](const Point& direction) { return TensionFibres(matrix, 5.0, direction); };
+  const double length = std::hypot(1.0, 0.2);
+  expect_same(residual<Fibred>(data, law(wrong)),
+              residual<Displacement>(data, law(Q * Point{1.0 / length, 0.2 / length, 0.0})));
+}
+
+// Stretched along the fibres the law carries their stress, shortened only its matrix.
+TEST(TensionFibres, AreSlackInCompression) {
+  const TensionFibres law(matrix, 5.0, {1.0, 0.0, 0.0});
+  for (const double stretch : {0.8, 1.3}) {
+    Mat<double, 3> F = Mat<double, 3>::identity();
+    F(0, 0) = stretch;
+    const double fibres = law.first_piola(F, wrong)(0, 0) - matrix.first_piola(F, wrong)(0, 0);
+    const double expected = stretch < 1.0 ? 0.0 : 0.5 * 5.0 * (stretch * stretch - 1.0) * stretch;
+    EXPECT_NEAR(fibres, expected, 1e-14);
+  }
 }
 }  // namespace
