@@ -8,14 +8,14 @@ namespace {
 using namespace ifsi;
 using Point = Vec<double, 2>;
 
-constexpr double range = 0.4, resistance = 10.0;
+constexpr double seal_range = 0.4, resistance = 10.0;
 
 /// Points 0, 1 of a body below, 2, 3 of one above, 4 far from all.
 struct Surfaces {
   std::vector<Point> x = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.1}, {1.0, 0.3}, {0.1, 5.0}};
   SurfaceSeal<2> seal{
       {{0, 0, 2.0, x[0]}, {1, 0, 2.0, x[1]}, {2, 1, 1.0, x[2]}, {3, 1, 1.0, x[3]}, {4, 2, 1.0, x[4]}},
-      range,
+      seal_range,
       resistance};
 };
 
@@ -45,7 +45,7 @@ TEST(SurfaceSeal, FindsTheMiddleOfTheNarrowestGap) {
 }
 
 TEST(SurfaceSeal, PointsOfOneBodyAndDistantOnesAreNoGap) {
-  SurfaceSeal<2> seal({{0, 0, 1.0, {0.0, 0.0}}, {1, 0, 1.0, {0.0, 3.0}}, {2, 1, 1.0, {5.0, 0.0}}}, range,
+  SurfaceSeal<2> seal({{0, 0, 1.0, {0.0, 0.0}}, {1, 0, 1.0, {0.0, 3.0}}, {2, 1, 1.0, {5.0, 0.0}}}, seal_range,
                       resistance);
   const std::vector<Point> x = {{0.0, 0.0}, {0.0, 0.1}, {0.4001, 0.0}};
   EXPECT_EQ(seal.find(x), x);
@@ -53,7 +53,7 @@ TEST(SurfaceSeal, PointsOfOneBodyAndDistantOnesAreNoGap) {
 }
 
 TEST(SurfaceSeal, SeesTheImageInAMirror) {
-  SurfaceSeal<2> seal({{0, 0, 1.0, {0.3, 0.1}}}, range, resistance);
+  SurfaceSeal<2> seal({{0, 0, 1.0, {0.3, 0.1}}}, seal_range, resistance);
   seal.add_mirror({{0.0, 0.0}, {0.0, 1.0}, true});
   const std::vector<Point> x = {{0.3, 0.15}};  // 0.3 from its image
   EXPECT_EQ(seal.find(x)[0], (Point{0.3, 0.0}));

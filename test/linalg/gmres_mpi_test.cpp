@@ -98,7 +98,7 @@ TEST(Fgmres, StopsEarlierWhereAnAbsoluteTargetAllowsIt) {
 TEST(Fgmres, StopsAtTheFirstIterationThatMeetsBothTargets) {
   for (double relative = 0.3; relative > 1e-4; relative *= 0.7) {
     System s, shorter;
-    GmresOptions o = tight();
+    GmresOptions o = tight_options();
     o.target = {{relative, 0.5 * relative}, {}};
     int products = 0;
     const LinearMap A = [&](double* x, double* y) { s.model.K.apply(x, y), ++products; };
@@ -119,8 +119,8 @@ TEST(Fgmres, AWorkspaceMayServeOneSystemAfterAnother) {
     const LinearMap identity = [&](double* r, double* z) { std::copy_n(r, b.size(), z); };
     std::vector<double> x[2] = {std::vector<double>(b.size(), 0.0), std::vector<double>(b.size(), 0.0)};
     for (GmresWorkspace* given : {&space, static_cast<GmresWorkspace*>(nullptr)})
-      fgmres(model.grid.layout, B, linear_map(model.K), identity, b.data(), x[given ? 0 : 1].data(), tight(),
-             given);
+      fgmres(model.grid.layout, B, linear_map(model.K), identity, b.data(), x[given ? 0 : 1].data(),
+             tight_options(), given);
     EXPECT_EQ(x[0], x[1]);
   }
 }
