@@ -266,7 +266,8 @@ TEST(Bar, VibrationIsSecondOrderInTime) {
 /// Lame's thick tube under inner pressure, small strain, as a body of revolution.
 TEST(BodyOfRevolution, ThickTube) {
   using Tube = SolidBody<Quad1, UncoupledNeoHookean, MeanDilatation, Axisymmetric>;
-  const double mu = 1, kappa = 500, p = 1e-5, a = 1, b = 2;
+  // Small, but not so small that kappa (J - 1) is lost in round-off where there is no fused multiply-add.
+  const double mu = 1, kappa = 500, p = 1e-4, a = 1, b = 2;
   SolidProblem<Tube> tube(
       Tube("tube", box<Quad1>({a, 0}, {b, 0.5}, {40, 4}), UncoupledNeoHookean(mu, kappa), {}));
   tube.prescribe("bottom", 1, 0);
