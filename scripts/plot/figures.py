@@ -80,13 +80,16 @@ def orders(run, name, table, x, errors, order_of):
 
 
 def pareto(run, name, table, cost, error, by):
-    """Error over cost, a colour for each combination of the columns `by`; the front that no point beats in both."""
+    """Error over cost, a mark for each value of the first of the columns `by`, a colour for each of the second; the
+    front that no point beats in both."""
     figure, axis = pyplot.subplots(figsize=(6, 4.5))
     kinds = list(zip(*(table[column] for column in by)))
+    first, second = (list(dict.fromkeys(values)) for values in zip(*kinds))
     for kind in dict.fromkeys(kinds):
         mine = numpy.array([k == kind for k in kinds])
         label = ", ".join(f"{column} {value:g}" for column, value in zip(by, kind))
-        axis.loglog(table[cost][mine], table[error][mine], "o", markersize=4, label=label)
+        axis.loglog(table[cost][mine], table[error][mine], "os^Dv"[first.index(kind[0]) % 5], markersize=4,
+                    color=f"C{second.index(kind[1]) % 10}", label=label)
     front = non_dominated(table[cost], table[error])
     axis.loglog(table[cost][front], table[error][front], color="0.6", linewidth=5, alpha=0.4, zorder=0, label="best")
     axis.set_xlabel(labelled(cost, table.units[cost]))
