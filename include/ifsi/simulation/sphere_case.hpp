@@ -63,11 +63,12 @@ struct SphereOptions {
   [[nodiscard]] double h() const { return a / n; }
   /// Growth per cell, so that meshes of all sizes are refinements of one.
   [[nodiscard]] double growth_per_cell() const { return std::pow(growth, 10.0 / n); }
-  /// Cells of the solid in those of the fluid. Points of a cubed sphere crowd at its eight corners.
+  /// Cells of the solid in those of the fluid. 1.2: ten points of the icosphere per (a / h)^2. Points of a
+  /// cubed sphere crowd at its eight corners.
   [[nodiscard]] double solid_spacing() const {
     if (spacing > 0.0) return spacing;
     if (model == "axisymmetric") return is_rigid() ? 1.0 : 2.0;
-    return is_rigid() ? 1.4 : 1.5;
+    return is_rigid() ? 1.2 : 1.5;
   }
 
   /// \throws Error (configuration) for choices that contradict each other.

@@ -12,6 +12,7 @@
 
 #include "ifsi/assembly/rigid_shape.hpp"
 #include "ifsi/mesh/ball.hpp"
+#include "ifsi/mesh/icosphere.hpp"
 #include "ifsi/simulation/sphere_case.hpp"
 
 namespace ifsi {
@@ -84,6 +85,24 @@ double distance_to_sphere(const SphereOptions& o, const Vec<double, dim>& centre
   return std::sqrt(dot(x - centre, x - centre)) - o.a;
 }
 
+/// Points of the surface of a rigid sphere: the nodes of a mesh of it in (r, z), in space those of an
+/// icosphere, in the model quarter3d the ones on this side of the planes.
+template <class Element>
+std::vector<Vec<double, Element::dim>> surface_points(const SphereOptions& o,
+                                                      const GlobalMesh<Element>& sphere,
+                                                      const Vec<double, Element::dim>& centre) {
+  if constexpr (Element::dim == 2) {
+    return boundary_points(sphere, 0);
+  } else {
+    std::vector<Vec<double, 3>> points;
+    const double parts = icosphere_spacing(o.a, 1000) * 1000.0 / (o.solid_spacing() * o.h());
+    const int frequency = std::max(1, static_cast<int>(std::lround(parts)));
+    for (const auto& x : icosphere_points(o.a, frequency))
+      if (!o.is_cut() || std::min(x[0], x[1]) > -1e-9 * o.a) points.push_back(centre + x);
+    return points;
+  }
+}
+
 /// Follows the velocity of the sphere and compares it with a curve.
 template <class Problem>
 class Fall {
@@ -154,7 +173,7 @@ FallResult fall_rigid(Run& run, const SphereOptions& o, const std::string& curve
   free[along_z] = true;
   if (!o.is_cut()) free.fill(true);
   typename Problem::Immersed body{{shape, o.rho_s - o.rigid.interior * o.rho_f, weight, free},
-                                  boundary_points(sphere, 0),
+                                  surface_points(o, sphere, shape.centre),
                                   [&](const auto& x) { return distance_to_sphere(o, shape.centre, x); }};
   Problem problem(mesh, tank_boundary<dim>(o), o.rho_f, Newtonian{o.mu}, {body}, o.flow, o.rigid);
   attach(run, problem);
