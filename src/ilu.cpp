@@ -104,6 +104,23 @@ void BlockIlu<D>::apply(float* b, float* x) const {
 }
 
 template <int D>
+void RefinedIlu<D>::apply(float* b, float* x) {
+  const Layout& layout = A_.layout();
+  const OverlapPattern& at = A_.pattern();
+  const std::size_t n_mine = static_cast<std::size_t>(layout.n_owned()) * D;
+  ilu_.apply(b, x);
+  for (std::size_t e = 0; e < n_mine; ++e) x[e] *= damping_;
+  layout.update_ghosts(x, D);
+  for (int i = 0; i < layout.n_owned(); ++i) {
+    float* bi = b + static_cast<std::size_t>(i) * D;
+    row_residual<D>(A_, at.row_ptr[i], at.row_ptr[i + 1], bi, x, bi);
+  }
+  correction_.resize(static_cast<std::size_t>(layout.n_local()) * D);
+  ilu_.apply(b, correction_.data());
+  for (std::size_t e = 0; e < n_mine; ++e) x[e] += correction_[e];
+}
+
+template <int D>
 void BlockGaussSeidel<D>::invert_diagonals() {
   inverse_.resize(static_cast<std::size_t>(A_.n_rows()) * D * D);
   for (int i = 0; i < A_.n_rows(); ++i) {
@@ -138,6 +155,9 @@ void BlockGaussSeidel<D>::apply(float* b, float* x) const {
 template class BlockIlu<1>;
 template class BlockIlu<2>;
 template class BlockIlu<3>;
+template class RefinedIlu<1>;
+template class RefinedIlu<2>;
+template class RefinedIlu<3>;
 template class BlockGaussSeidel<1>;
 template class BlockGaussSeidel<2>;
 template class BlockGaussSeidel<3>;

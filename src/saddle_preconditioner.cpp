@@ -33,6 +33,9 @@ class SaddlePreconditioner<B>::Impl {
     viscous_number_ = parts.viscous_number;
     order_ = parts.order;
     steady_ = parts.steady;
+    convection_ = parts.convection;
+    has_convection_ = convection_.shared_pattern() != nullptr;
+    crosses_cells_ = has_convection_ && transport_matters(parts);
     update_velocity(K);
     update_gradient(K);
     update_schur(K, parts);
@@ -60,6 +63,7 @@ class SaddlePreconditioner<B>::Impl {
     std::string text = "velocity: ";
     if (const auto* amg = std::get_if<Amg>(&velocity_)) text += amg->description();
     if (std::holds_alternative<BlockIlu<dim>>(velocity_)) text += "ILU(0)";
+    if (std::holds_alternative<RefinedIlu<dim>>(velocity_)) text += "ILU(0) twice";
     if (std::holds_alternative<BlockGaussSeidel<dim>>(velocity_)) text += "Gauss-Seidel";
     text += " (viscous number " + std::to_string(viscous_number_) + "); pressure: ILU(0) of mass and PSPG";
     if (inertia_.ready()) text += ", inertia by " + inertia_.description();
@@ -71,8 +75,11 @@ class SaddlePreconditioner<B>::Impl {
   [[nodiscard]] double setup_cost() const { return std::holds_alternative<Amg>(velocity_) ? 12 : 8; }
 
  private:
-  /// Largest viscous number at which ILU(0) is the faster solver and stays within 25 iterations.
-  static constexpr double viscous_limit = dim == 2 ? 0.7 : 1.0;
+  /// Largest viscous number at which ILU(0) stays within 25 iterations, or nearly; AMG is slower up to 2.5 in
+  /// the plane and 5 in space.
+  static constexpr double viscous_limit = dim == 2 ? 1.5 : 2.0;
+  /// From here on ILU(0) is applied twice: as fast, or faster.
+  static constexpr double refined_from = dim == 2 ? 0.3 : 0.4;
   /// Weight of M in M + L in steady flow, where nothing else than (M + L)^-1 is in S^-1: M + L is 1 to 1.6
   /// times S for short waves, this puts S into the middle of that.
   static constexpr double steady_mass = 0.8;
@@ -94,6 +101,8 @@ class SaddlePreconditioner<B>::Impl {
       velocity_.template emplace<Amg>(velocity_amg_options()).setup(extract_diagonal_part<dim>(K, 0));
     } else if (options_.velocity == "gauss_seidel") {
       velocity_.template emplace<BlockGaussSeidel<dim>>().update(K);
+    } else if (crosses_cells_ || viscous_number_ > refined_from) {
+      velocity_.template emplace<RefinedIlu<dim>>(order_ == 1 ? 1.0f : 0.7f).update(K);
     } else {
       velocity_.template emplace<BlockIlu<dim>>().update(K);
     }
@@ -107,8 +116,6 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   void update_schur(const BlockCsr<B>& K, const SchurParts& parts) {
-    convection_ = parts.convection;
-    has_convection_ = convection_.shared_pattern() != nullptr;
     inertia_ = Amg(amg_options());
     transport_ = Amg(amg_options());
     update_local_part(K, parts);
@@ -117,7 +124,7 @@ class SaddlePreconditioner<B>::Impl {
       add_outlet_terms(K, N);
       setup_laplacian(N, inertia_);
     }
-    if (!has_convection_ || !(steady_ || transport_matters(parts))) return;
+    if (!has_convection_ || !(steady_ || crosses_cells_)) return;
     BlockCsr<1> N = parts.laplacian;
     if (!add_inflow_terms(N)) add_outlet_terms(K, N);
     setup_laplacian(N, transport_);
@@ -227,6 +234,8 @@ class SaddlePreconditioner<B>::Impl {
       for (std::size_t i = 0; i < wide_x_.size(); ++i) z_v_[i] = static_cast<float>(wide_x_[i]);
     } else if (const auto* ilu = std::get_if<BlockIlu<dim>>(&velocity_)) {
       ilu->apply(r_v_.data(), z_v_.data());
+    } else if (auto* refined = std::get_if<RefinedIlu<dim>>(&velocity_)) {
+      refined->apply(r_v_.data(), z_v_.data());
     } else {
       std::get<BlockGaussSeidel<dim>>(velocity_).apply(r_v_.data(), z_v_.data());
     }
@@ -235,12 +244,13 @@ class SaddlePreconditioner<B>::Impl {
   SaddleOptions options_;
   std::shared_ptr<const Pattern> pattern_;
   double viscous_number_ = 0;
-  std::variant<BlockIlu<dim>, BlockGaussSeidel<dim>, Amg> velocity_;
+  std::variant<BlockIlu<dim>, RefinedIlu<dim>, BlockGaussSeidel<dim>, Amg> velocity_;
   AlignedVector<float> gradient_;  ///< G: dim numbers per block of the pattern
   int order_ = 1;
   bool steady_ = false, has_convection_ = false;
-  Amg inertia_;    ///< N^-1 of its own
-  Amg transport_;  ///< N^-1 within C N^-1, where that is not the same
+  bool crosses_cells_ = false;  ///< the flow, about one or more within 1 / c
+  Amg inertia_;                 ///< N^-1 of its own
+  Amg transport_;               ///< N^-1 within C N^-1, where that is not the same
   BlockCsr<1> convection_;
   BlockIlu<1> local_part_;  ///< (M + L)^-1
   std::vector<double> local_factor_, r_p_, z_p_, potential_, transported_, wide_b_, wide_x_;

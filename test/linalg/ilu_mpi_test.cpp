@@ -3,6 +3,7 @@
 
 #include "dense.hpp"
 #include "ifsi/core/error.hpp"
+#include "ifsi/linalg/extract.hpp"
 #include "ifsi/linalg/ilu.hpp"
 #include "stokes_model.hpp"
 
@@ -149,6 +150,28 @@ TEST(BlockIlu, TellsWhereAPivotIsSingular) {
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("node 5"), std::string::npos);
   }
+}
+
+// Fails when the residual at a seam lacks the ghosts' part of the first result.
+TEST(RefinedIlu, TreatsWhatIluHasLeftOver) {
+  const auto model = coupled_model<2>({.cells = 6, .wind = 2});
+  const Layout& layout = model.grid.layout;
+  const int n = layout.n_owned() * 2;
+  BlockIlu<2> ilu;
+  ilu.update(model.K);
+  RefinedIlu<2> refined(0.7f);
+  refined.update(model.K);
+  const Eigen::VectorXf b = without_ghosts(layout, 2, test::some_vector(layout.n_global() * 2)).cast<float>();
+  Eigen::VectorXf rest = b, first(b.size()), second(b.size()), x(b.size());
+  ilu.apply(rest.data(), first.data());
+  VectorXd wide = 0.7 * first.cast<double>(), product(b.size());
+  extract_diagonal_part<2>(model.K, 0).apply(wide.data(), product.data());
+  rest.head(n) = b.head(n) - product.head(n).cast<float>();
+  ilu.apply(rest.data(), second.data());
+  Eigen::VectorXf lost = b;
+  refined.apply(lost.data(), x.data());
+  const VectorXd expected = (wide + second.cast<double>()).head(n);
+  EXPECT_LT((x.cast<double>().head(n) - expected).norm(), 1e-5 * expected.norm());
 }
 
 TEST(BlockGaussSeidel, IsOneForwardAndOneBackwardSweep) {

@@ -38,7 +38,7 @@ Amg pressure_solver(const StokesModel<2>& model) {
 }
 
 TEST(SaddlePreconditioner, SolvesItsBlockEquations) {
-  StokesModel<2> model({.cells = 8, .wind = 1});
+  StokesModel<2> model({.cells = 8, .viscosity = 0.03, .wind = 1});
   const Layout& layout = model.grid.layout;
   SaddlePreconditioner<3> P({.velocity = "ilu"});
   P.update(model.K, schur_parts(model));
@@ -106,6 +106,11 @@ TEST(SaddlePreconditioner, MassDominatedFlowTakesFewIterationsWithIlu) {
         << cells;
 }
 
+// 25 with ILU(0) applied once.
+TEST(SaddlePreconditioner, DiffusionOverACellAndMoreTakesFewIterationsWithIluTwice) {
+  EXPECT_LE(iterations<2>({.cells = 40, .rho_c = 1, .viscosity = .01}, "ilu"), 20);
+}
+
 TEST(SaddlePreconditioner, ViscousFlowTakesFewIterationsWithAmg) {
   for (int cells : {16, 40})
     EXPECT_LE(iterations<2>({.cells = cells, .rho_c = .2 * cells, .viscosity = 1}, "amg"), 25) << cells;
@@ -146,7 +151,8 @@ std::string choice(double viscosity, int order = 1) {
 }
 
 TEST(SaddlePreconditioner, ChoosesTheVelocitySolverByTheViscousNumber) {
-  EXPECT_NE(choice<3>(1e-3).find("velocity: ILU"), std::string::npos);
+  EXPECT_NE(choice<3>(1e-3).find("velocity: ILU(0) (visc"), std::string::npos);
+  EXPECT_NE(choice<3>(0.5).find("velocity: ILU(0) twice"), std::string::npos);
   EXPECT_EQ(choice<3>(1e3).find("velocity: ILU"), std::string::npos);
   EXPECT_NE(choice<4>(1e-3).find("velocity: ILU"), std::string::npos);
 }

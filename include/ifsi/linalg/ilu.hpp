@@ -22,6 +22,10 @@ class BlockIlu {
     LU_.assign(K);
     factor();
   }
+  void update(const LocalBlocks<D>& A) {
+    LU_ = A;
+    factor();
+  }
   /// Collective. x = (L U)^-1 b on the owned nodes; both hold n_local * D numbers and may be the same. The
   /// ghosts of b are refreshed from their owners, those of x mean nothing.
   void apply(float* b, float* x) const;
@@ -31,6 +35,31 @@ class BlockIlu {
   void eliminate_row(int i, std::vector<int>& position);
 
   LocalBlocks<D> LU_;  ///< L strictly below the diagonal (unit diagonal), U above, inverse pivots on it
+};
+
+/// ILU(0) applied a second time to what the first time has left over. What diffuses over some cells in a time
+/// step is reached in half as many iterations; about 1.3 times the time of one with ILU(0) alone.
+template <int D>
+class RefinedIlu {
+ public:
+  /// The first result is multiplied by damping. With cells of order 2 (L U)^-1 A has eigenvalues beyond two,
+  /// and what they belong to would grow.
+  explicit RefinedIlu(float damping = 1) : damping_(damping) {}
+
+  /// Collective. Throws as BlockIlu does.
+  template <int B>
+  void update(const BlockCsr<B>& K) {
+    A_.assign(K);
+    ilu_.update(A_);
+  }
+  /// Collective. b and x as for BlockIlu, but different arrays; b is lost.
+  void apply(float* b, float* x);
+
+ private:
+  BlockIlu<D> ilu_;
+  LocalBlocks<D> A_;
+  float damping_;
+  AlignedVector<float> correction_;
 };
 
 extern template class BlockIlu<1>;
@@ -58,6 +87,9 @@ class BlockGaussSeidel {
   AlignedVector<float> inverse_;  ///< of the diagonal blocks
 };
 
+extern template class RefinedIlu<1>;
+extern template class RefinedIlu<2>;
+extern template class RefinedIlu<3>;
 extern template class BlockGaussSeidel<1>;
 extern template class BlockGaussSeidel<2>;
 extern template class BlockGaussSeidel<3>;
