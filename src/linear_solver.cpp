@@ -6,15 +6,12 @@
 
 #include "ifsi/core/error.hpp"
 #include "ifsi/linalg/direct.hpp"
+#include "ifsi/linalg/method_choice.hpp"
 #include "ifsi/linalg/reuse.hpp"
 #include "ifsi/linalg/saddle_preconditioner.hpp"
 
 namespace ifsi {
 namespace {
-
-/// Most unknowns for which LU is the first choice, and for which it is at hand when GMRES fails.
-constexpr long direct_limit(int B) { return B == 3 ? 150'000 : 3'000; }
-constexpr long fallback_limit(int B) { return B == 3 ? 400'000 : 40'000; }
 
 /// Removes the mean of the last component: the constant pressure.
 template <int B>
@@ -56,11 +53,16 @@ class LinearSolver<B>::Impl {
     if (options_.method != "auto" && options_.method != "direct" && options_.method != "gmres")
       throw Error(ExitCode::configuration, "linear solver: unknown method \"" + options_.method +
                                                "\"; expected auto, direct or gmres");
+    if (schur_ || options_.method == "direct") return;
+    if (options_.method == "gmres")
+      throw Error(ExitCode::configuration,
+                  "linear solver: method gmres needs the parts of the Schur complement");
+    options_.method = "direct";
+    reason_ = "no preconditioner given";
   }
 
   SolverReport solve(const BlockCsr<B>& K, std::span<const double> rhs, std::span<double> x,
                      const SolveTarget& target) {
-    choose(K);
     rhs_.assign(rhs.begin(), rhs.end());
     if (options_.enclosed) project_pressure<B>(K.layout(), rhs_.data());
     const bool fresh = !options_.reuse || reuse_.due();
@@ -95,42 +97,36 @@ class LinearSolver<B>::Impl {
     return "direct (UMFPACK, kept as preconditioner of GMRES while it pays)" + size_text(K) + why;
   }
 
-  void choose(const BlockCsr<B>& K) {
-    if (!choice_.empty()) return;
-    const long n = K.layout().n_global() * B;
-    use_direct_ =
-        options_.method == "direct" || (options_.method == "auto" && (n <= direct_limit(B) || !schur_));
-    if (!use_direct_ && !schur_)
-      throw Error(ExitCode::configuration,
-                  "linear solver: method gmres needs the parts of the Schur complement");
-    const std::string limit = std::to_string(direct_limit(B));
-    const std::string why = options_.method != "auto" ? "as asked for"
-                            : !schur_                 ? "no preconditioner given"
-                            : use_direct_             ? "at most " + limit
-                                                      : "more than " + limit;
-    choice_ = use_direct_ ? describe_direct(K, why) : "GMRES with block preconditioner" + size_text(K) + why;
-    description = choice_;
+  /// At every set-up, for the matrix as it is: another time step may change the choice.
+  void choose(const BlockCsr<B>& K, const SchurParts& parts) {
+    MethodChoice choice{options_.method == "direct", reason_};
+    if (options_.method == "auto") choice = choose_method(K, parts);
+    use_direct_ = choice.direct;
+    choice_ = choice.direct ? describe_direct(K, choice.why)
+                            : "GMRES with block preconditioner" + size_text(K) + choice.why;
   }
 
   /// Where the block preconditioner fails, LU takes over for good, if the size allows.
   bool may_fall_back(const BlockCsr<B>& K) {
-    if (use_direct_ || options_.method != "auto" || K.layout().n_global() * B > fallback_limit(B))
+    if (use_direct_ || options_.method != "auto" || !lu_is_affordable(B - 1, K.layout().n_global() * B))
       return false;
-    use_direct_ = true;
-    choice_ = describe_direct(K, "GMRES with block preconditioner did not converge");
-    description = choice_;
+    options_.method = "direct";
+    reason_ = "GMRES with block preconditioner did not converge";
     return true;
   }
 
   void renew(const BlockCsr<B>& K) {
     mass_per_momentum_ = mass_per_momentum(K);
     ++total_setups;
+    const SchurParts parts = options_.method == "direct" ? SchurParts{} : schur_();
+    choose(K, parts);
     if (!use_direct_) {
-      saddle_.update(K, schur_());
+      saddle_.update(K, parts);
       reuse_.renewed(saddle_.setup_cost());
       description = choice_ + "; " + saddle_.description();
       return;
     }
+    description = choice_;
     // With the pressure level free the last unknown of node 0 is pinned; the projection undoes that choice.
     direct_.factor(K, options_.enclosed ? B - 1 : -1);
     reuse_.renewed(direct_.setup_cost());
@@ -164,7 +160,7 @@ class LinearSolver<B>::Impl {
 
   LinearSolverOptions options_;
   SchurProvider schur_;
-  std::string choice_;
+  std::string choice_, reason_ = "as asked for";
   bool use_direct_ = true;
   DirectSolver direct_;
   SaddlePreconditioner<B> saddle_;

@@ -75,11 +75,8 @@ class SaddlePreconditioner<B>::Impl {
   [[nodiscard]] double setup_cost() const { return std::holds_alternative<Amg>(velocity_) ? 12 : 8; }
 
  private:
-  /// Largest viscous number at which ILU(0) stays within 25 iterations, or nearly; AMG is slower up to 2.5 in
-  /// the plane and 5 in space.
-  static constexpr double viscous_limit = dim == 2 ? 1.5 : 2.0;
   /// From here on ILU(0) is applied twice: as fast, or faster.
-  static constexpr double refined_from = dim == 2 ? 0.3 : 0.4;
+  static constexpr double refined_from = 0.3;
   /// Weight of M in M + L in steady flow, where nothing else than (M + L)^-1 is in S^-1: M + L is 1 to 1.6
   /// times S for short waves, this puts S into the middle of that.
   static constexpr double steady_mass = 0.8;
@@ -96,8 +93,7 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   void update_velocity(const BlockCsr<B>& K) {
-    const bool mass_dominates = viscous_number_ <= viscous_limit;
-    if (options_.velocity == "amg" || (options_.velocity == "auto" && !mass_dominates)) {
+    if (options_.velocity == "amg" || (options_.velocity == "auto" && needs_amg(viscous_number_))) {
       velocity_.template emplace<Amg>(velocity_amg_options()).setup(extract_diagonal_part<dim>(K, 0));
     } else if (options_.velocity == "gauss_seidel") {
       velocity_.template emplace<BlockGaussSeidel<dim>>().update(K);

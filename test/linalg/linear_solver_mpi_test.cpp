@@ -2,6 +2,7 @@
 
 #include "ifsi/core/error.hpp"
 #include "ifsi/linalg/linear_solver.hpp"
+#include "ifsi/linalg/method_choice.hpp"
 #include "stokes_model.hpp"
 
 namespace {
@@ -137,11 +138,35 @@ TEST(LinearSolver, SaysWhatItChoseAndWhy) {
   EXPECT_NE(asked.description().find("as asked for"), std::string::npos);
 }
 
+// In the plane one rank keeps LU where ILU(0) does not serve the velocity; several share what GMRES does.
+TEST(LinearSolver, ChoosesByDimensionSizeRanksAndViscousNumber) {
+  const auto direct = [](const SystemTraits& system) { return choose_method(system).direct; };
+  EXPECT_TRUE(direct({.dim = 2, .unknowns = 4'000, .ranks = 2}));
+  EXPECT_FALSE(direct({.dim = 2, .unknowns = 20'000}));
+  EXPECT_TRUE(direct({.dim = 2, .unknowns = 20'000, .needs_amg = true}));
+  EXPECT_FALSE(direct({.dim = 2, .unknowns = 20'000, .ranks = 2, .needs_amg = true}));
+  EXPECT_FALSE(direct({.dim = 2, .unknowns = 200'000, .needs_amg = true}));
+  EXPECT_TRUE(direct({.dim = 3, .unknowns = 2'000}));
+  EXPECT_FALSE(direct({.dim = 3, .unknowns = 4'000, .needs_amg = true}));
+}
+
+// Another time step makes another viscous number, and the next set-up another choice.
+TEST(LinearSolver, ChoosesAnewAtASetUp) {
+  const StokesModel<2>*now = nullptr, fast({.cells = 45, .rho_c = 1e4}), slow({.cells = 45, .rho_c = 1});
+  LinearSolver<3> solver({}, [&] { return schur_of(*now)(); });
+  for (const auto* model : {&fast, &slow}) {
+    now = model;
+    const std::vector<double> b = right_hand_side(*model);
+    std::vector<double> x(b.size(), 0.0);
+    solver.invalidate();
+    EXPECT_TRUE(solver.solve(model->K, b, x).converged);
+    const bool alone = model->grid.comm.size() == 1;
+    EXPECT_EQ(solver.description().find("direct") == 0, model == &slow && alone) << solver.description();
+  }
+}
+
 TEST(LinearSolver, RefusesUnknownMethodsAndMissingParts) {
   EXPECT_THROW(LinearSolver<3>({.method = "magic"}), Error);
-  StokesModel<2> model({.cells = 4});
-  std::vector<double> b = right_hand_side(model), x = b;
-  LinearSolver<3> solver({.method = "gmres"});
-  EXPECT_THROW(solver.solve(model.K, b, x), Error);
+  EXPECT_THROW(LinearSolver<3>({.method = "gmres"}), Error);
 }
 }  // namespace

@@ -11,6 +11,7 @@
 #include "ifsi/linalg/block_csr.hpp"
 #include "ifsi/linalg/direct.hpp"
 #include "ifsi/linalg/gmres.hpp"
+#include "ifsi/linalg/method_choice.hpp"
 #include "ifsi/linalg/reuse.hpp"
 #include "ifsi/linalg/saddle_preconditioner.hpp"
 #include "ifsi/linalg/schur_parts.hpp"
@@ -64,6 +65,11 @@ class PatchedSolver {
     if (fresh) renew(K_f);
     SolverReport report = run(K_f, K_s, b, x, target, fresh);
     if (!report.converged && !fresh) {
+      std::fill(x.begin(), x.end(), 0.0);
+      renew(K_f);
+      report = run(K_f, K_s, b, x, target, true);
+    }
+    if (!report.converged && may_fall_back(K_f)) {
       std::fill(x.begin(), x.end(), 0.0);
       renew(K_f);
       report = run(K_f, K_s, b, x, target, true);
@@ -174,16 +180,24 @@ class PatchedSolver {
     for (int i = 0; i < B * B; ++i) to[i] += from[i];
   }
 
+  /// Where the block preconditioner fails, LU of the fluid takes over for good, if the size allows.
+  bool may_fall_back(const BlockCsr<B>& K_f) {
+    if (use_direct_ || options_.base != "auto" || !lu_is_affordable(B - 1, K_f.layout().n_global() * B))
+      return false;
+    options_.base = "direct";
+    return true;
+  }
+
   void renew(const BlockCsr<B>& K_f) {
     ++n_setups_;
     at_setup_ = around_solid_;
-    const long n = K_f.layout().n_global() * B;
-    use_direct_ = options_.base == "direct" || (options_.base == "auto" && B == 3 && n <= 400'000);
+    const SchurParts parts = options_.base == "direct" ? SchurParts{} : schur_();
+    use_direct_ = options_.base == "direct" || (options_.base == "auto" && choose_method(K_f, parts).direct);
     if (use_direct_) {
       fluid_lu_.factor(K_f, options_.enclosed ? B - 1 : -1);
       reuse_.renewed(fluid_lu_.setup_cost());
     } else {
-      saddle_.update(K_f, schur_());
+      saddle_.update(K_f, parts);
       reuse_.renewed(saddle_.setup_cost());
     }
   }

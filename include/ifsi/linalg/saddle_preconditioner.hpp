@@ -11,8 +11,8 @@
 namespace ifsi {
 
 struct SaddleOptions {
-  /// Approximate inverse of the velocity block: "ilu", "gauss_seidel", "amg", or "auto": ILU(0) up to a
-  /// viscous number (SchurParts) near one, AMG beyond.
+  /// Approximate inverse of the velocity block: "ilu" (once, or twice where that pays), "gauss_seidel",
+  /// "amg", or "auto": ILU(0) up to a viscous number (SchurParts) between one and two, AMG beyond.
   std::string velocity = "auto";
   bool enclosed = false;  ///< the pressure is known up to a constant
 };
@@ -30,6 +30,12 @@ template <int B>
 class SaddlePreconditioner {
  public:
   static constexpr int dim = B - 1;
+
+  /// Whether "auto" takes AMG for the velocity: ILU(0) stays within 25 iterations, or nearly, up to this
+  /// viscous number. (AMG is slower up to 2.5 in the plane and 5 in space.)
+  [[nodiscard]] static constexpr bool needs_amg(double viscous_number) {
+    return viscous_number > (dim == 2 ? 1.5 : 2.0);
+  }
 
   /// Throws Error(configuration) for an unknown velocity solver.
   explicit SaddlePreconditioner(SaddleOptions options = {});

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// LU or the block preconditioner: which of them a flow system is given to.
+
+#include <string>
+
+#include "ifsi/linalg/saddle_preconditioner.hpp"
+
+namespace ifsi {
+
+/// What the choice depends on.
+struct SystemTraits {
+  int dim = 2;
+  long unknowns = 0;
+  int ranks = 1;
+  /// Whether the velocity block needs AMG (SaddlePreconditioner::needs_amg): a solve then costs three times
+  /// what it does with ILU(0).
+  bool needs_amg = false;
+};
+
+struct MethodChoice {
+  bool direct = true;
+  std::string why;
+};
+
+/// LU up to a number of unknowns: 3,000 in space; in the plane 150,000 where AMG is needed and one rank does
+/// all the work, 5,000 otherwise (docs/solvers.md has the measurements).
+[[nodiscard]] MethodChoice choose_method(const SystemTraits& system);
+
+/// Whether LU may take over where GMRES fails.
+[[nodiscard]] constexpr bool lu_is_affordable(int dim, long unknowns) {
+  return unknowns <= (dim == 2 ? 400'000 : 40'000);
+}
+
+template <int B>
+[[nodiscard]] MethodChoice choose_method(const BlockCsr<B>& K, const SchurParts& parts) {
+  return choose_method({.dim = B - 1,
+                        .unknowns = K.layout().n_global() * B,
+                        .ranks = K.layout().communicator().size(),
+                        .needs_amg = SaddlePreconditioner<B>::needs_amg(parts.viscous_number)});
+}
+
+}  // namespace ifsi

@@ -1,0 +1,21 @@
+#include "ifsi/linalg/method_choice.hpp"
+
+namespace ifsi {
+
+MethodChoice choose_method(const SystemTraits& system) {
+  long limit = 5'000;
+  std::string where = "in the plane where ILU(0) serves the velocity";
+  if (system.dim == 3) {
+    limit = 3'000;
+    where = "in space";
+  } else if (system.ranks > 1) {
+    where = "in the plane on several ranks";
+  } else if (system.needs_amg) {
+    limit = 150'000;
+    where = "in the plane on one rank where the velocity needs AMG";
+  }
+  const bool direct = system.unknowns <= limit;
+  return {direct, (direct ? "at most " : "more than ") + std::to_string(limit) + ", the limit " + where};
+}
+
+}  // namespace ifsi
