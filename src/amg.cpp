@@ -69,8 +69,8 @@ class Amg::Impl {
     }
     std::ostringstream text;
     text.precision(3);
-    text << "BoomerAMG" << (by_nodes() ? " by nodes, " : ", ") << n_levels << " levels, operator complexity "
-         << sum / hypre_ParCSRMatrixDNumNonzeros(parcsr_);
+    text << "BoomerAMG" << (by_nodes() ? " by nodes, " : ", ") << (options_.w_cycle ? "W-cycle, " : "")
+         << n_levels << " levels, operator complexity " << sum / hypre_ParCSRMatrixDNumNonzeros(parcsr_);
     return text.str();
   }
 
@@ -140,6 +140,7 @@ class Amg::Impl {
     HYPRE_BoomerAMGSetPrintLevel(solver_, 0);
     HYPRE_BoomerAMGSetTol(solver_, 0.0);
     HYPRE_BoomerAMGSetMaxIter(solver_, options_.cycles);
+    HYPRE_BoomerAMGSetCycleType(solver_, options_.w_cycle ? 2 : 1);
     HYPRE_BoomerAMGSetCoarsenType(solver_, hmis);
     HYPRE_BoomerAMGSetInterpType(solver_, extended_plus_i);
     HYPRE_BoomerAMGSetPMaxElmts(solver_, options_.max_per_row);

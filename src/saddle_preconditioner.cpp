@@ -89,6 +89,7 @@ class SaddlePreconditioner<B>::Impl {
     return {.strong_threshold = dim == 2 ? 0.25 : 0.5,
             .aggressive_levels = 0,
             .cycles = dim == 2 || steady_ ? 2 : 1,
+            .w_cycle = dim == 3 && !steady_,
             .nodal = order_ == 1};
   }
 

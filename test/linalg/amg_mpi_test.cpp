@@ -47,18 +47,23 @@ TEST(Amg, SolvesAsTheDenseMatrixDoes) {
 }
 
 template <int dim>
-int iterations(int cells, double strong_threshold) {
+int iterations(int cells, const AmgOptions& options) {
   const BlockCsr<1> A = poisson<dim>(cells);
-  Amg amg({.strong_threshold = strong_threshold});
+  Amg amg(options);
   amg.setup(A);
   return solve(A, amg, test::some_vector(A.layout().n_global())).report.iterations;
 }
 
 TEST(Amg, IterationsHardlyGrowWithTheMesh) {
-  const int coarse = iterations<2>(20, 0.25), fine = iterations<2>(60, 0.25);
+  const int coarse = iterations<2>(20, {.strong_threshold = 0.25}),
+            fine = iterations<2>(60, {.strong_threshold = 0.25});
   EXPECT_LE(fine, 20);
   EXPECT_LE(fine, coarse + 4);
-  EXPECT_LE(iterations<3>(10, 0.5), 20);
+  EXPECT_LE(iterations<3>(10, {}), 20);
+}
+
+TEST(Amg, AWCycleMakesUpForPoorInterpolation) {
+  EXPECT_LT(iterations<2>(60, {.w_cycle = true, .max_per_row = 1}), iterations<2>(60, {.max_per_row = 1}));
 }
 
 TEST(Amg, SeveralUnknownsPerNodeAreSeveralFunctions) {

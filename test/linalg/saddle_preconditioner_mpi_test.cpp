@@ -155,6 +155,7 @@ TEST(SaddlePreconditioner, ChoosesTheVelocitySolverByTheViscousNumber) {
   EXPECT_NE(choice<3>(0.5).find("velocity: ILU(0) twice"), std::string::npos);
   EXPECT_EQ(choice<3>(1e3).find("velocity: ILU"), std::string::npos);
   EXPECT_NE(choice<4>(1e-3).find("velocity: ILU"), std::string::npos);
+  EXPECT_NE(choice<4>(1e3).find("W-cycle"), std::string::npos);
 }
 
 TEST(SaddlePreconditioner, CoarsensByNodesForCellsOfOrderOneOnly) {

@@ -13,14 +13,15 @@ namespace ifsi {
 struct AmgOptions {
   double strong_threshold = 0.5;  ///< 0.25 for scalar problems in the plane, 0.5 in space
   int aggressive_levels = 1;
-  int cycles = 1;       ///< V-cycles per application
-  int max_per_row = 4;  ///< entries kept per row of the interpolation
+  int cycles = 1;        ///< per application
+  bool w_cycle = false;  ///< every level calls the next one twice
+  int max_per_row = 4;   ///< entries kept per row of the interpolation
   /// Coarsens nodes (by the Frobenius norms of their blocks), not unknowns, where a node has several.
   bool nodal = false;
 };
 
-/// x ~ A^-1 b by V-cycles from zero: HMIS coarsening, extended interpolation, l1-Gauss-Seidel forward on the
-/// way down and backward on the way up. Several unknowns per node are separate functions ("unknown
+/// x ~ A^-1 b by V- or W-cycles from zero: HMIS coarsening, extended interpolation, l1-Gauss-Seidel forward
+/// on the way down and backward on the way up. Several unknowns per node are separate functions ("unknown
 /// approach").
 class Amg {
  public:
