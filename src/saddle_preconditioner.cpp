@@ -81,15 +81,15 @@ class SaddlePreconditioner<B>::Impl {
   /// times S for short waves, this puts S into the middle of that.
   static constexpr double steady_mass = 0.8;
   static AmgOptions amg_options() { return {.strong_threshold = dim == 2 ? 0.25 : 0.5}; }
-  /// Aggressive coarsening doubles the iterations where grad-div couples the components. A second cycle pays
-  /// where one of them is what limits the iterations. Coarsening by nodes saves a quarter of the time with
-  /// multilinear cells; the nodes of a cell of order 2 differ too much: quad2, Re 1, steady takes 27
-  /// iterations with it and 16 without.
+  /// Aggressive coarsening doubles the iterations where grad-div couples the components. One V-cycle
+  /// is what would limit the iterations: in the plane a second one pays, in space a W-cycle. Coarsening by
+  /// nodes saves a quarter of the time with multilinear cells; the nodes of a cell of order 2 differ too
+  /// much: quad2, Re 1, steady takes 27 iterations with it and 16 without.
   [[nodiscard]] AmgOptions velocity_amg_options() const {
     return {.strong_threshold = dim == 2 ? 0.25 : 0.5,
             .aggressive_levels = 0,
-            .cycles = dim == 2 || steady_ ? 2 : 1,
-            .w_cycle = dim == 3 && !steady_,
+            .cycles = dim == 2 ? 2 : 1,
+            .w_cycle = dim == 3,
             .nodal = order_ == 1};
   }
 
