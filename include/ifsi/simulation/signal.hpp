@@ -84,7 +84,11 @@ class Signal {
     if (curvature * sign >= 0.0) return {s.t, sign * s.value};
     const double slope = dl + curvature * (s.t - l.t);  // at s, of the parabola through the three
     const double shift = -0.5 * slope / curvature;
-    return {s.t + shift, sign * (s.value + 0.5 * slope * shift)};
+    // With equal steps a top is never further above its sample than this; noise in unequal ones throws it far
+    // away.
+    const double most = std::max(sign * (s.value - l.value), sign * (s.value - r.value)) / 8.0;
+    const double above = sign * 0.5 * slope * shift;
+    return {above <= most ? s.t + shift : s.t, sign * s.value + std::min(above, most)};
   }
 
   std::vector<Extreme> samples_;
