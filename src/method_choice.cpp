@@ -8,6 +8,9 @@ MethodChoice choose_method(const SystemTraits& system) {
   if (system.dim == 3) {
     limit = 3'000;
     where = "in space";
+  } else if (system.immersed) {
+    limit = 400'000;
+    where = "in the plane with immersed solids";
   } else if (system.ranks > 1) {
     where = "in the plane on several ranks";
   } else if (system.needs_amg) {

@@ -146,6 +146,7 @@ TEST(LinearSolver, ChoosesByDimensionSizeRanksAndViscousNumber) {
   EXPECT_TRUE(direct({.dim = 2, .unknowns = 20'000, .needs_amg = true}));
   EXPECT_FALSE(direct({.dim = 2, .unknowns = 20'000, .ranks = 2, .needs_amg = true}));
   EXPECT_FALSE(direct({.dim = 2, .unknowns = 200'000, .needs_amg = true}));
+  EXPECT_TRUE(direct({.dim = 2, .unknowns = 200'000, .ranks = 2, .immersed = true}));
   EXPECT_TRUE(direct({.dim = 3, .unknowns = 2'000}));
   EXPECT_FALSE(direct({.dim = 3, .unknowns = 4'000, .needs_amg = true}));
 }

@@ -16,6 +16,9 @@ struct SystemTraits {
   /// Whether the velocity block needs AMG (SaddlePreconditioner::needs_amg): a solve then costs three times
   /// what it does with ILU(0).
   bool needs_amg = false;
+  /// Whether a patch around solids is solved for beside it (PatchedSolver): each iteration costs more, and
+  /// GMRES takes two to four times as many as with LU.
+  bool immersed = false;
 };
 
 struct MethodChoice {
@@ -23,8 +26,9 @@ struct MethodChoice {
   std::string why;
 };
 
-/// LU up to a number of unknowns: 3,000 in space; in the plane 150,000 where AMG is needed and one rank does
-/// all the work, 5,000 otherwise (docs/solvers.md has the measurements).
+/// LU up to a number of unknowns: 3,000 in space. In the plane, while one rank does all the work, 400,000
+/// with immersed solids and 150,000 where AMG is needed; 5,000 otherwise (docs/solvers.md has the
+/// measurements).
 [[nodiscard]] MethodChoice choose_method(const SystemTraits& system);
 
 /// Whether LU may take over where GMRES fails.
@@ -33,11 +37,13 @@ struct MethodChoice {
 }
 
 template <int B>
-[[nodiscard]] MethodChoice choose_method(const BlockCsr<B>& K, const SchurParts& parts) {
+[[nodiscard]] MethodChoice choose_method(const BlockCsr<B>& K, const SchurParts& parts,
+                                         bool immersed = false) {
   return choose_method({.dim = B - 1,
                         .unknowns = K.layout().n_global() * B,
                         .ranks = K.layout().communicator().size(),
-                        .needs_amg = SaddlePreconditioner<B>::needs_amg(parts.viscous_number)});
+                        .needs_amg = SaddlePreconditioner<B>::needs_amg(parts.viscous_number),
+                        .immersed = immersed});
 }
 
 }  // namespace ifsi

@@ -192,7 +192,8 @@ class PatchedSolver {
     ++n_setups_;
     at_setup_ = around_solid_;
     const SchurParts parts = options_.base == "direct" ? SchurParts{} : schur_();
-    use_direct_ = options_.base == "direct" || (options_.base == "auto" && choose_method(K_f, parts).direct);
+    use_direct_ =
+        options_.base == "direct" || (options_.base == "auto" && choose_method(K_f, parts, true).direct);
     if (use_direct_) {
       fluid_lu_.factor(K_f, options_.enclosed ? B - 1 : -1);
       reuse_.renewed(fluid_lu_.setup_cost());
