@@ -13,7 +13,7 @@
 namespace ifsi {
 
 struct LinearSolverOptions {
-  /// "auto": by dimension and size; "direct": LU of the whole matrix, kept and used as preconditioner while
+  /// "auto": choose_method; "direct": LU of the whole matrix, kept and used as preconditioner while
   /// it pays; "gmres": GMRES with the block preconditioner.
   std::string method = "auto";
   std::string velocity = "auto";  ///< see SaddleOptions
