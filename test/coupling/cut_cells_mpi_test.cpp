@@ -70,6 +70,22 @@ TYPED_TEST(Cut, LayersAreThoseOfTheWholeMesh) {
   }
 }
 
+TYPED_TEST(Cut, RingsOfCellsFollowTheLayers) {
+  this->locate(this->x);
+  this->cut.update(this->C);
+  EXPECT_EQ(this->cut.with_rings(0), this->cut.cells());
+  const auto layer = this->layers_by_definition(9);
+  for (int rings = 1; rings < 4; ++rings) {
+    std::vector<int> expected;
+    for (int c = 0; c < this->mesh.n_cells(); ++c) {
+      bool touches = false;
+      for (int node : this->mesh.cells[c]) touches = touches || layer[this->mesh.input_point[node]] < rings;
+      if (touches) expected.push_back(c);
+    }
+    EXPECT_EQ(this->cut.with_rings(rings), expected);
+  }
+}
+
 TYPED_TEST(Cut, TheFieldFollowsTheLayers) {
   this->locate(this->x);
   this->cut.update(this->C);

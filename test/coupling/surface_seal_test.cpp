@@ -39,9 +39,9 @@ TEST(SurfaceSeal, FindsTheMiddleOfTheNarrowestGap) {
   EXPECT_EQ(places[4], s.x[4]);  // nothing near
   ASSERT_EQ(s.seal.links().size(), 4u);
   EXPECT_EQ(s.seal.nodes(s.seal.links()[0], 100), (std::vector<int>{0, 2, 100}));
-  EXPECT_NEAR(s.seal.links()[0].coefficient, 0.5 * resistance * 2.0,
+  EXPECT_NEAR(s.seal.links()[0].friction.coefficient, 0.5 * resistance * 2.0,
               1e-14);  // a gap of a quarter of the range
-  EXPECT_NEAR(s.seal.links()[3].coefficient, 0.5 * resistance * 0.5, 1e-14);  // of three quarters
+  EXPECT_NEAR(s.seal.links()[3].friction.coefficient, 0.5 * resistance * 0.5, 1e-14);  // of three quarters
 }
 
 TEST(SurfaceSeal, PointsOfOneBodyAndDistantOnesAreNoGap) {
@@ -59,7 +59,7 @@ TEST(SurfaceSeal, SeesTheImageInAMirror) {
   EXPECT_EQ(seal.find(x)[0], (Point{0.3, 0.0}));
   ASSERT_EQ(seal.links().size(), 1u);
   EXPECT_EQ(seal.nodes(seal.links()[0], 1), (std::vector<int>{0, 1}));
-  EXPECT_NEAR(seal.links()[0].coefficient, 0.25 * resistance, 1e-14);
+  EXPECT_NEAR(seal.links()[0].friction.coefficient, 0.25 * resistance, 1e-14);
   const auto term = SurfaceSeal<2>::term(seal.links()[0], std::vector<Point>{{1.0, 5.0}, {3.0, 0.0}});
   EXPECT_NEAR(term.R[1][0], 0.25 * resistance * 2.0, 1e-14);
   EXPECT_EQ(term.R[1][1], 0.0);  // only along the plane

@@ -46,7 +46,7 @@ struct Probed : FsiProblem<Quad1, Body> {
   Probed(const Mesh<Quad1>& mesh, const FlowOptions& flow, const FsiOptions& fsi,
          std::vector<Body> bodies = leaflet(), FlowBoundary<2> boundary = channel(), double mu = 0.1)
       : Base(mesh, std::move(boundary), 1.0, Newtonian{mu}, std::move(bodies), flow, fsi) {}
-  using Base::R_;
+  using Base::R_, Base::k_p_;
   std::vector<double>& unknowns() { return this->state_.u; }
   void moved() { this->state_.update_rate(); }
   [[nodiscard]] const Constraints<3>& constraints() const { return this->system_.constraints(); }
@@ -532,10 +532,74 @@ TEST(FsiProblem, SealHoldsBackTheFluidInAGap) {
   EXPECT_LT(tangent_error(whole.problem), 2e-4);
 }
 
+/// A stiff leaflet that closes a channel at a slant, driven by pressure.
+struct Shut {
+  Mesh<Quad1> mesh;
+  Probed problem;
+
+  Shut(Communicator comm, int n_high, double tie, int rings)
+      : mesh(distribute(box<Quad1>({0.0, 0.0}, {2.0, 1.0}, {20, 10}), comm)),
+        problem(mesh, Narrow::flow(), options(tie, rings), body(n_high), Narrow::boundary(true)) {}
+  [[nodiscard]] static FsiOptions options(double tie, int rings) {
+    FsiOptions fsi = fsi_options(1.0);
+    fsi.s.s_max = 1000.0;
+    fsi.tie = tie, fsi.tie_spacing = 0.7, fsi.k_p_rings = rings;
+    return fsi;
+  }
+  [[nodiscard]] static std::vector<Body> body(int n_high) {
+    auto slanted = box<Quad1>({0.72, 0.0}, {0.8, 1.0}, {2, n_high});
+    for (auto& x : slanted.points) x[0] += 0.43 * x[1];
+    std::vector<Body> bodies;
+    bodies.emplace_back(
+        "leaflet", std::move(slanted), NeoHookean(Lame::from_young(2e6, 0.4)),
+        Body::Parameters{.rho_s = 1.0, .rho_f = 1.0, .mu_f = 0.1, .mu_s = 0.0, .gravity = {}});
+    return bodies;
+  }
+  [[nodiscard]] double leak() const {
+    return boundary_flux<Cartesian>(mesh, mesh.boundary("right"), problem.solution());
+  }
+};
+
+// Friction between the nodes of a coarse leaflet shuts it, with an exact tangent and balances that close; the
+// answer does not depend on the ranks.
+TEST(FsiProblem, TieHoldsBackTheFluidInACoarseSolid) {
+  constexpr double tie = 1e5;
+  Shut tied(Communicator(), 4, tie, 0), same(Communicator(MPI_COMM_SELF), 4, tie, 0),
+      coarse(Communicator(), 4, 0.0, 0);
+  Balances<Probed> balances(tied.problem);
+  for (int k = 0; k < 3; ++k) {
+    for (Shut* scene : {&tied, &same, &coarse}) {
+      const StepReport report = scene->problem.step(0.05);
+      ASSERT_TRUE(report.converged) << k << " " << report.failure;
+    }
+    const auto row = balances.observe(0.05);
+    EXPECT_NEAR(row[6], 0.0, 1e-4 * 50.0) << k;
+    EXPECT_GT(row[4], -1e-3 * row[0]) << k;  // nothing is gained
+  }
+  for (std::size_t k = 0; k < same.problem.solids().displacement().size(); ++k)
+    EXPECT_NEAR(tied.problem.solids().displacement()[k], same.problem.solids().displacement()[k], 1e-9);
+  EXPECT_GT(tied.problem.solids().tie_power(), 0.0);
+  EXPECT_LT(std::abs(tied.leak()), 0.2 * std::abs(coarse.leak())) << coarse.leak();
+  EXPECT_LT(tangent_error(tied.problem), 2e-4);
+}
+
+// Rings of cells around those that the solid cuts have their k_p.
+TEST(FsiProblem, RingsHaveTheScaleOfCutCells) {
+  Shut plain(Communicator(), 20, 0.0, 0), ringed(Communicator(), 20, 0.0, 1);
+  const auto scaled = [](Shut& scene) {
+    scene.problem.begin_step(0.01);
+    return scene.mesh.comm.sum(std::ranges::count(scene.problem.k_p_, FsiOptions{}.k_p));
+  };
+  EXPECT_GT(scaled(plain), 0);
+  EXPECT_GT(scaled(ringed), 2 * scaled(plain));
+}
+
 TEST(FsiProblem, SealsThatCannotWorkAreRefused) {
   const auto mesh = channel_mesh(Communicator());
   FsiOptions fsi = fsi_options(0.0, "exact");
   fsi.seal = 1.0;
+  EXPECT_THROW(Probed(mesh, flow_options(), fsi), Error);
+  fsi.seal = 0.0, fsi.tie = 1.0;
   EXPECT_THROW(Probed(mesh, flow_options(), fsi), Error);
   Probed without(mesh, flow_options(), fsi_options(0.0));
   EXPECT_THROW(without.add_seal_mirror({{0.0, 0.5}, {0.0, 1.0}, true}), Error);

@@ -55,6 +55,19 @@ class CutCells {
   /// The flagged local cells, ascending.
   [[nodiscard]] const std::vector<int>& cells() const { return cells_; }
 
+  /// The flagged cells and `rings` layers of cells around them, each those that share a node with the layer
+  /// before; ascending, alike on all ranks. Collective.
+  [[nodiscard]] std::vector<int> with_rings(int rings) const {
+    if (rings == 0) return cells_;
+    const std::vector<int> layer = layers(rings - 1);
+    std::vector<int> cells;
+    for (int c = 0; c < mesh_.n_cells(); ++c)
+      if (std::any_of(mesh_.cells[c].begin(), mesh_.cells[c].end(),
+                      [&](int node) { return layer[node] < rings; }))
+        cells.push_back(c);
+    return cells;
+  }
+
   /// The field s at all local nodes. Collective.
   [[nodiscard]] std::vector<double> stabilisation(const StabilisationScale& scale) const {
     const std::vector<int> layer = layers(scale.rings + scale.transition - 1);

@@ -2,6 +2,7 @@
 /// \file
 /// How fine the solid is against the fluid mesh where it is now: too coarse a solid leaks.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -51,6 +52,25 @@ double length_in_cells(const CouplingRow<Element>& row, const Vec<double, Elemen
   auto d_xi = Vec<double, Element::dim>::zero();
   for (int b = 0; b < Element::n_nodes; ++b) d_xi += dot(row.grad_N[b], e) * Element::nodes[b];
   return 0.5 * Element::order * std::sqrt(dot(d_xi, Element::metric * d_xi));
+}
+
+/// Longest edges of a solid quad or hex along each direction of its reference cell, in spacings of the
+/// fluid's nodes there. \param nodes of the cell, as numbered by C.
+template <class SolidElement, class FluidElement>
+std::array<double, SolidElement::dim> cell_lengths(const Interpolation<FluidElement>& C,
+                                                   const std::array<int, SolidElement::n_nodes>& nodes) {
+  std::array<double, SolidElement::dim> longest{};
+  const auto& x = C.positions();
+  for (int a = 0; a < SolidElement::n_vertices; ++a)
+    for (int b = 0; b < a; ++b) {
+      const auto along = SolidElement::nodes[a] - SolidElement::nodes[b];
+      if (dot(along, along) != 4.0) continue;  // no edge
+      for (int d = 0; d < SolidElement::dim; ++d)
+        for (int end : {nodes[a], nodes[b]})
+          if (along[d] != 0.0 && C.row(end).found())
+            longest[d] = std::max(longest[d], length_in_cells(C.row(end), x[nodes[a]] - x[nodes[b]]));
+    }
+  return longest;
 }
 
 /// The largest distance between neighbouring solid nodes over the spacing of the fluid's nodes there, in the

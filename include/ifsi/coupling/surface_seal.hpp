@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ifsi/core/tensor.hpp"
+#include "ifsi/coupling/friction.hpp"
 #include "ifsi/coupling/point_tree.hpp"
 #include "ifsi/coupling/surface_contact.hpp"
 
@@ -38,10 +39,9 @@ class SurfaceSeal {
 
   /// Friction in one gap: of the nodes involved, and of what part of the velocity.
   struct Link {
-    int point;           ///< surface point that found the gap
-    int partner;         ///< the one it found, or -1: its image in a plane
-    double coefficient;  ///< force per velocity
-    Block direction;     ///< projector: all of the velocity, or that along the plane
+    int point;               ///< surface point that found the gap
+    int partner;             ///< the one it found, or -1: its image in a plane
+    Friction<dim> friction;  ///< on all of the velocity, or on that along the plane
   };
   /// Forces of the fluid and the surfaces on each other at the n nodes of a link, gap point last, as a
   /// residual, and their slopes (n x n blocks, row by row).
@@ -73,7 +73,7 @@ class SurfaceSeal {
       const double taper = seal_taper(gap.width / range_);
       if (taper == 0.0) continue;
       places[i] = gap.middle;
-      links_.push_back({i, gap.partner, 0.5 * taper * resistance_ * points_[i].area, gap.direction});
+      links_.push_back({i, gap.partner, {0.5 * taper * resistance_ * points_[i].area, gap.direction}});
     }
     return places;
   }
@@ -93,18 +93,12 @@ class SurfaceSeal {
 
   /// \param v velocities of the link's nodes, in their order.
   [[nodiscard]] static Term term(const Link& link, std::span<const Point> v) {
-    const int n = static_cast<int>(v.size());
-    const double share = -1.0 / (n - 1);  // of the mean velocity of the surfaces
-    Point slip = v[n - 1];
-    for (int a = 0; a < n - 1; ++a) slip += share * v[a];
-    const Point force = link.coefficient * (link.direction * slip);
-    Term term{dot(force, slip), {}, {}};
-    const auto weight = [&](int a) { return a == n - 1 ? 1.0 : share; };
-    for (int a = 0; a < n; ++a) {
-      term.R[a] = weight(a) * force;
-      for (int b = 0; b < n; ++b)
-        term.K[a * n + b] = (link.coefficient * weight(a) * weight(b)) * link.direction;
-    }
+    const std::size_t n = v.size();
+    std::array<double, 3> weight;
+    weight.fill(-1.0 / static_cast<double>(n - 1));  // of the mean velocity of the surfaces
+    weight[n - 1] = 1.0;
+    Term term{};
+    term.power = link.friction.add(std::span(weight).first(n), v, term.R, term.K);
     return term;
   }
 

@@ -26,6 +26,7 @@ struct FsiOptions {
   /// tangent; "exact", with its derivative (eq. 25).
   std::string treatment = "frozen";
   double k_p = 0.01;     ///< scale of the PSPG term in cells that hold solid nodes (eq. 13)
+  int k_p_rings = 0;     ///< layers of cells around those that have it as well
   StabilisationScale s;  ///< tau_M scale around the solid (eq. 4)
   /// A step is rejected when a solid node ends further than this from where it was predicted, in spacings of
   /// the fluid's nodes: C, cut cells and s were taken at the prediction.
@@ -34,6 +35,8 @@ struct FsiOptions {
   double contact_pressure = 0.0;  ///< of flat surfaces half of the range apart (eq. 33)
   double seal = 0.0;              ///< resistance of narrow gaps (eq. 42); 0: none
   double seal_range = 2.0;        ///< gap from which on there is none, in fluid spacings
+  double tie = 0.0;               ///< friction between the solid's nodes, per volume (eq. 44); 0: none
+  double tie_spacing = 0.5;       ///< of its points, in fluid spacings
   /// Layers of fluid nodes around the cut cells that are solved for directly. -1: two; none in space at s =
   /// 1, where they cost more than all else and save no iterations.
   int patch_layers = -1;
@@ -45,9 +48,16 @@ struct FsiOptions {
     params.add("coupling.max_change", max_change, "-",
                "largest distance of a solid node from its prediction, in fluid spacings", positive);
     params.add("coupling.k_p", k_p, "-", "scale of PSPG in cells that hold solid nodes", {0.0, 1.0});
+    params.add("coupling.k_p_rings", k_p_rings, "-", "layers of cells around those with the same scale",
+               {0, 10});
     params.add("coupling.s_max", s.s_max, "-", "scale s of tau_M around the solid", {1.0, 1e9});
     params.add("coupling.s_rings", s.rings, "-", "layers of nodes beyond the cut cells with s = s_max",
                {0, 100});
+    params.add("coupling.tie", tie, "mass/(length^3 time)",
+               "friction of the fluid with the solid between its nodes, per volume (0: none)", non_negative);
+    params.add("coupling.tie_spacing", tie_spacing, "-",
+               "of the points of that friction, in fluid spacings; solids that are finer have none",
+               {0.05, 10.0});
     params.add("contact.range", contact_range, "-",
                "distance in fluid spacings from which surfaces of solids repel (0: no contact)",
                non_negative);
@@ -97,6 +107,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
     n_held_ = C_.lost().size();
     if (fsi_.contact_range > 0.0) set_contact();
     if (fsi_.seal > 0.0) set_seal();
+    if (fsi_.tie > 0.0) set_tie();
   }
 
   /// A plane that the bodies may not pass. \throws Error (configuration) without contact.range.
@@ -264,14 +275,33 @@ class FsiProblem : public FlowProblem<Element, Model> {
            std::to_string(n_held_) + " that lie outside from the beginning";
   }
 
+  /// Friction takes its places at the predicted positions.
+  void require_frozen(const char* key, double value) const {
+    if (fsi_.treatment == "frozen") return;
+    throw Error(ExitCode::configuration, key + (" = " + std::to_string(value)) +
+                                             " needs coupling.treatment = frozen; it is " + fsi_.treatment);
+  }
   /// Nodes in the wall stay there, and no gap opens beside them.
   void set_seal() {
-    if (fsi_.treatment != "frozen")
-      throw Error(ExitCode::configuration, "contact.seal = " + std::to_string(fsi_.seal) +
-                                               " needs coupling.treatment = frozen; it is " + fsi_.treatment);
+    require_frozen("contact.seal", fsi_.seal);
     auto points = solids_.surface_points();
     std::erase_if(points, [&](const auto& p) { return !C_.row(p.node).found(); });
     solids_.set_seal({std::move(points), fsi_.seal_range * fluid_spacing(), fsi_.seal});
+  }
+
+  void set_tie() {
+    require_frozen("coupling.tie", fsi_.tie);
+    if constexpr (is_tensor_cell<typename Body::Element> && !Body::Coordinates::axisymmetric) {
+      SolidTie<Flow::dim> tie(fsi_.tie_spacing, fsi_.tie);
+      for (std::size_t b = 0; b < solids_.bodies().size(); ++b)
+        tie.template add_body<typename Body::Element>(C_, solids_.bodies()[b].mesh().cells,
+                                                      solids_.first_node(static_cast<int>(b)));
+      if (tie.n_points() > 0) solids_.set_tie(std::move(tie));
+    } else {
+      throw Error(ExitCode::configuration, "coupling.tie = " + std::to_string(fsi_.tie) +
+                                               ", expected 0: only solids of quads or hexes can be tied, and "
+                                               "no bodies of revolution");
+    }
   }
 
   void set_contact() {
@@ -330,22 +360,23 @@ class FsiProblem : public FlowProblem<Element, Model> {
 
   /// C, cut cells, s-field and the patch for the positions the solids are expected at.
   void place_solids(double dt) {
-    locate_points(solids_.with_gap_points(solids_.predicted(dt)));
-    if (solids_.link_gaps()) K_s_.set_cells(solids_.cells());
+    locate_points(solids_.with_friction_points(solids_.predicted(dt)));
+    if (solids_.link_friction()) K_s_.set_cells(solids_.cells());
     cut_.update(C_);
     this->k_p_.assign(mesh().n_cells(), 1.0);
-    for (int c : cut_.cells()) this->k_p_[c] = fsi_.k_p;
+    for (int c : cut_.with_rings(fsi_.k_p_rings)) this->k_p_[c] = fsi_.k_p;
     if (fraction_at_) this->fraction_ = fraction_at_(C_.positions());
     if (fsi_.s.s_max > 1.0) this->s_ = cut_.stabilisation(fsi_.s);
     update_pattern();
   }
 
-  /// Nodes and gap points; the ways of those between surfaces in a bulging vessel may lead outside.
+  /// Nodes and points of friction; these may lie outside: between surfaces in a bulging vessel, or where a
+  /// solid is fixed in a wall.
   void locate_points(std::vector<Point> x) {
     C_.locate(x);
     const auto outside = std::span(C_.lost()).subspan(n_lost_nodes());
     if (outside.empty()) return;
-    solids_.give_up_gaps(outside, x);
+    solids_.give_up(outside, x);
     C_.locate(x);
   }
   [[nodiscard]] std::size_t n_lost_nodes() const {
@@ -371,7 +402,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
     this->state_.new_velocities(new_v_);
     settled_ = true;
     if (fsi_.treatment == "frozen") {
-      if (solids_.seal()) solids_.set_gap_velocity(C_.velocities(this->state_.u.data(), Flow::B));
+      if (solids_.has_friction())
+        solids_.set_friction_velocity(C_.velocities(this->state_.u.data(), Flow::B));
       return solids_.set_velocity(C_.velocities(new_v_.data(), Flow::B));
     }
     constexpr int max_iterations = 40, undamped = 10;

@@ -12,6 +12,7 @@
 
 #include "ifsi/assembly/solid_body.hpp"
 #include "ifsi/coupling/solid_cells.hpp"
+#include "ifsi/coupling/solid_tie.hpp"
 #include "ifsi/coupling/surface_contact.hpp"
 #include "ifsi/coupling/surface_seal.hpp"
 #include "ifsi/time/generalized_alpha.hpp"
@@ -33,18 +34,19 @@ class ImmersedSolids {
       cells_.append(body.mesh().cells, first_node_.back());
       X_.insert(X_.end(), body.mesh().points.begin(), body.mesh().points.end());
     }
-    n_body_cells_ = first_link_ = cells_.size();
+    n_body_cells_ = first_link_ = first_tie_ = cells_.size();
     for (auto* x : {&u_, &v_, &a_, &u_old_, &v_old_, &a_old_, &u_alpha_, &v_alpha_, &a_alpha_})
       x->assign(X_.size() * dim, 0.0);
   }
 
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
   [[nodiscard]] std::vector<Body>& bodies() { return bodies_; }
-  /// The cells of all bodies, then the contacts and the links of the seal, which couple nodes as cells do.
+  /// The cells of all bodies, then the contacts, the links of the seal and the ties, which couple nodes as
+  /// cells do.
   [[nodiscard]] const SolidCells& cells() const { return cells_; }
   [[nodiscard]] int n_nodes() const { return static_cast<int>(X_.size()); }
-  /// Nodes and, behind them, the gap points of the seal.
-  [[nodiscard]] int n_points() const { return n_nodes() + (seal_ ? seal_->n_gap_points() : 0); }
+  /// Nodes and, behind them, the gap points of the seal and the points of the tie.
+  [[nodiscard]] int n_points() const { return first_tie_point() + (tie_ ? tie_->n_points() : 0); }
   [[nodiscard]] int first_node(int body) const { return first_node_[body]; }
   /// Displacement and velocity of the last completed level, dim numbers per node.
   [[nodiscard]] std::span<const double> displacement() const { return u_old_; }
@@ -117,44 +119,61 @@ class ImmersedSolids {
   }
 
   /// Holds the fluid back in narrow gaps between surfaces, see SurfaceSeal.
-  void set_seal(SurfaceSeal<dim> seal) {
-    seal_.emplace(std::move(seal));
-    gap_v_.assign(seal_->n_gap_points(), Point::zero());
-  }
+  void set_seal(SurfaceSeal<dim> seal) { seal_.emplace(std::move(seal)); }
   [[nodiscard]] const std::optional<SurfaceSeal<dim>>& seal() const { return seal_; }
   void add_mirror(const ContactPlane<dim>& plane) { seal_->add_mirror(plane); }
-  /// Finds the gaps at these positions of the nodes, and appends the gap points to them.
-  [[nodiscard]] std::vector<Point> with_gap_points(std::vector<Point> x) {
-    if (!seal_) return x;
-    const std::vector<Point> places = seal_->find(x);
-    x.insert(x.end(), places.begin(), places.end());
+  /// Ties the fluid to the solids between their nodes, see SolidTie.
+  void set_tie(SolidTie<dim> tie) { tie_.emplace(std::move(tie)); }
+  [[nodiscard]] const std::optional<SolidTie<dim>>& tie() const { return tie_; }
+
+  /// Appends gap points and points of the tie to these positions of the nodes.
+  [[nodiscard]] std::vector<Point> with_friction_points(std::vector<Point> x) {
+    std::vector<Point> more = seal_ ? seal_->find(x) : std::vector<Point>{};
+    if (tie_) {
+      const std::vector<Point> in_cells = tie_->find(x);
+      more.insert(more.end(), in_cells.begin(), in_cells.end());
+    }
+    x.insert(x.end(), more.begin(), more.end());
     return x;
   }
-  /// Lists the links of the last gaps found; says whether cells() has changed.
-  bool link_gaps() {
-    if (!seal_) return false;
+  /// Lists what friction couples; says whether cells() has changed.
+  bool link_friction() {
+    if (!seal_ && !tie_) return false;
     const SolidCells old = cells_;
     list_cells();
     return cells_ != old;
   }
-  /// Gives up gaps whose points, by their numbers among all points, lie outside of the fluid, and takes those
-  /// back to their nodes. \param x positions of all points
-  void give_up_gaps(std::span<const int> outside, std::span<Point> x) {
-    std::vector<char> is_outside(seal_->n_gap_points(), 0);
+  /// Gives up points of friction, by their numbers among all points, that lie outside of the fluid, and takes
+  /// them to nodes. \param x positions of all points
+  void give_up(std::span<const int> outside, std::span<Point> x) {
+    std::vector<char> no_gap(seal_ ? seal_->n_gap_points() : 0, 0);
     for (int p : outside) {
-      is_outside[p - n_nodes()] = 1;
-      x[p] = x[seal_->node(p - n_nodes())];
+      const int k = p - first_tie_point();
+      if (k >= 0) tie_->leave_out(k);
+      if (k < 0) no_gap[p - n_nodes()] = 1;
+      x[p] = x[k >= 0 ? tie_->home(k) : seal_->node(p - n_nodes())];
     }
-    seal_->keep_links([&](int k) { return !is_outside[k]; });
+    if (seal_) seal_->keep_links([&](int gap) { return !no_gap[gap]; });
   }
-  /// Velocities of the fluid, where the equations hold, at all points; those at the gap points are kept.
-  void set_gap_velocity(std::span<const Point> v) { gap_v_.assign(v.begin() + n_nodes(), v.end()); }
+  /// Velocities of the fluid, where the equations hold, at all points; those beyond the nodes are kept.
+  void set_friction_velocity(std::span<const Point> v) { friction_v_.assign(v.begin() + n_nodes(), v.end()); }
+  [[nodiscard]] bool has_friction() const { return seal_ || tie_; }
   /// What friction in the gaps takes per time, where the equations hold.
   [[nodiscard]] double seal_power() const {
     double power = 0.0;
     if (seal_)
       for (const auto& link : seal_->links())
         power += SurfaceSeal<dim>::term(link, velocities_alpha(seal_->nodes(link, n_nodes()))).power;
+    return power;
+  }
+  /// What friction with the tied points takes.
+  [[nodiscard]] double tie_power() const {
+    double power = 0.0;
+    for (int c = 0; tie_ && c < tie_->n_cells(); ++c) {
+      const auto v = velocities_alpha(tie_->nodes(c, first_tie_point()));
+      std::vector<Point> R(v.size());
+      power += tie_->add(c, v, R, {});
+    }
     return power;
   }
   /// Nodes on the surfaces of all bodies.
@@ -207,6 +226,7 @@ class ImmersedSolids {
     }
     if (contact_) add_contact(cells, R, tangent, matrix);
     if (seal_) add_seal(cells, R, tangent, matrix);
+    if (tie_) add_tie(cells, R, tangent, matrix);
     return worst;
   }
 
@@ -310,7 +330,7 @@ class ImmersedSolids {
   template <class MatrixSink>
   void add_seal(std::span<const int> cells, std::span<Point> R, bool tangent, MatrixSink&& matrix) const {
     const auto first = std::lower_bound(cells.begin(), cells.end(), first_link_) - cells.begin();
-    for (std::size_t i = first; i < cells.size(); ++i) {
+    for (std::size_t i = first; i < cells.size() && cells[i] < first_tie_; ++i) {
       const auto nodes = cells_[cells[i]];
       auto term = SurfaceSeal<dim>::term(seal_->links()[cells[i] - first_link_], velocities_alpha(nodes));
       for (std::size_t a = 0; a < nodes.size(); ++a) R[nodes[a]] += term.R[a];
@@ -319,11 +339,26 @@ class ImmersedSolids {
       matrix(static_cast<int>(i), term.K.data());
     }
   }
+  /// Those of the listed cells that are ties (eq. 44).
+  template <class MatrixSink>
+  void add_tie(std::span<const int> cells, std::span<Point> R, bool tangent, MatrixSink&& matrix) const {
+    std::vector<Point> R_c;
+    std::vector<Mat<double, dim>> K;
+    const auto first = std::lower_bound(cells.begin(), cells.end(), first_tie_) - cells.begin();
+    for (std::size_t i = first; i < cells.size(); ++i) {
+      const auto nodes = cells_[cells[i]];
+      R_c.assign(nodes.size(), Point::zero());
+      K.assign(tangent ? nodes.size() * nodes.size() : 0, Mat<double, dim>::zero());
+      tie_->add(cells[i] - first_tie_, velocities_alpha(nodes), R_c, K);
+      for (std::size_t a = 0; a < nodes.size(); ++a) R[nodes[a]] += R_c[a];
+      if (tangent) matrix(static_cast<int>(i), K.data());
+    }
+  }
   /// Velocities of points where the equations hold.
   [[nodiscard]] std::vector<Point> velocities_alpha(std::span<const int> nodes) const {
     std::vector<Point> v;
     for (int p : nodes) {
-      v.push_back(p < n_nodes() ? Point{} : gap_v_[p - n_nodes()]);
+      v.push_back(p < n_nodes() ? Point{} : friction_v_[p - n_nodes()]);
       for (int k = 0; p < n_nodes() && k < dim; ++k) v.back()[k] = v_alpha_[p * dim + k];
     }
     return v;
@@ -334,9 +369,12 @@ class ImmersedSolids {
     cells_.truncate(n_body_cells_);
     if (contact_) cells_.append(contact_->pairs()), cells_.append(contact_->singles());
     first_link_ = cells_.size();
-    if (!seal_) return;
-    for (const auto& link : seal_->links()) cells_.append(seal_->nodes(link, n_nodes()));
+    if (seal_)
+      for (const auto& link : seal_->links()) cells_.append(seal_->nodes(link, n_nodes()));
+    first_tie_ = cells_.size();
+    for (int c = 0; tie_ && c < tie_->n_cells(); ++c) cells_.append(tie_->nodes(c, first_tie_point()));
   }
+  [[nodiscard]] int first_tie_point() const { return n_nodes() + (seal_ ? seal_->n_gap_points() : 0); }
 
   /// Calls visit(body, nodes, area of each) for the faces of all surfaces.
   template <class Visit>
@@ -383,10 +421,11 @@ class ImmersedSolids {
   std::vector<Body> bodies_;
   std::vector<int> first_node_, first_cell_;
   SolidCells cells_;
-  int n_body_cells_ = 0, first_link_ = 0;
+  int n_body_cells_ = 0, first_link_ = 0, first_tie_ = 0;
   std::optional<SurfaceContact<dim>> contact_;
   std::optional<SurfaceSeal<dim>> seal_;
-  std::vector<Point> gap_v_;  ///< of the fluid at the gap points, where the equations hold
+  std::optional<SolidTie<dim>> tie_;
+  std::vector<Point> friction_v_;  ///< of the fluid at the points beyond the nodes
   std::vector<Point> X_;
   GeneralizedAlpha levels_, rates_;
   double dt_ = 1.0;
