@@ -44,6 +44,20 @@ void ValveCurves::find_opening(Figures& f) const {
   }
 }
 
+/// Net volume that has passed: the most of it, what has come back when the flow stops first, and at the end.
+void ValveCurves::find_volumes(Figures& f) const {
+  double passed = 0.0, at_stop = 0.0;
+  bool stopped = false;
+  for (std::size_t k = 1; k < samples_.size(); ++k) {
+    const Sample &a = samples_[k - 1], &b = samples_[k];
+    passed += 0.5 * (b.t - a.t) * (a.flow + b.flow);
+    if (passed >= f.forward) f.forward = passed, stopped = false, at_stop = passed;
+    if (!stopped && b.flow < 0.0) at_stop = std::min(at_stop, passed);
+    stopped = stopped || (b.flow >= 0.0 && at_stop < f.forward);
+  }
+  f.closing = f.forward - at_stop, f.leak = at_stop - passed;
+}
+
 ValveCurves::Figures ValveCurves::figures(double rho) const {
   Figures f;
   if (samples_.empty()) return f;
@@ -54,15 +68,11 @@ ValveCurves::Figures ValveCurves::figures(double rho) const {
     f.det_F_min = std::min(f.det_F_min, s.det_F);
     f.volume_change = std::max(f.volume_change, std::abs(s.volume_change));
   }
-  find_opening(f);
+  find_opening(f), find_volumes(f);
   double time = 0.0, drop = 0.0, square = 0.0;  // while blood goes forward against a positive difference
   for (std::size_t k = 1; k < samples_.size(); ++k) {
     const Sample& s = samples_[k];
-    const double dt = s.t - samples_[k - 1].t, volume = 0.5 * dt * (s.flow + samples_[k - 1].flow);
-    if (volume > 0.0)
-      f.forward += volume;
-    else
-      (f.t_close == 0.0 || s.t <= f.t_close ? f.closing : f.leak) -= volume;
+    const double dt = s.t - samples_[k - 1].t;
     if (s.flow <= 0.0 || s.pressure_drop <= 0.0) continue;
     time += dt, drop += dt * s.pressure_drop, square += dt * s.flow * s.flow;
   }

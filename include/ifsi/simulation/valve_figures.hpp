@@ -65,6 +65,7 @@ class ValveCurves {
 
  private:
   void find_opening(Figures& f) const;
+  void find_volumes(Figures& f) const;
 
   std::vector<Sample> samples_;
 };
