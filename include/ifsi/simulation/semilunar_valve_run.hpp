@@ -84,8 +84,11 @@ class ValveHistory {
         balances_(problem),
         pictures_(run, o.picture_every, {"wall"}) {
     std::vector<Column> columns = ValveCurves::columns();
-    for (const Column& c :
-         {Column{"dt", "s"}, {"elastic_energy", "erg"}, {"lost_nodes", "-"}, {"seal_power", "erg/s"}})
+    for (const Column& c : {Column{"dt", "s"},
+                            {"elastic_energy", "erg"},
+                            {"lost_nodes", "-"},
+                            {"seal_power", "erg/s"},
+                            {"tie_power", "erg/s"}})
       columns.push_back(c);
     for (const Column& c : Balances<Problem>::columns()) columns.push_back(c);
     if (run.restarted()) {
@@ -113,7 +116,7 @@ class ValveHistory {
     std::vector<double> row = ValveCurves::row(s);
     row.insert(row.end(), {dt, copies * totals.elastic_energy,
                            static_cast<double>(problem_.interpolation().lost().size()),
-                           copies * problem_.solids().seal_power()});
+                           copies * problem_.solids().seal_power(), copies * problem_.solids().tie_power()});
     for (double x : balances_.observe(dt)) row.push_back(x);
     csv_.row(row);
     pictures_.write(problem_, s.t >= o_.time.end * (1.0 - 1e-10));
@@ -195,6 +198,7 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
                   std::move(leaflets), o.flow, o.fsi, may_protrude);
   check_protrusion(run, problem, o.protrusion_max);
   if (o.fsi.seal > 0.0 && o.is_sector()) problem.add_seal_mirror(commissure_plane());
+  if (o.fsi.contact_range > 0.0 && o.is_sector()) problem.add_contact_plane(commissure_plane());
   attach(run, problem);
   ValveHistory<Problem> history(run, problem, o, std::move(lines));
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });
