@@ -2,6 +2,7 @@
 /// \file
 /// Friction between nodes that do not move alike.
 
+#include <cstddef>
 #include <span>
 
 #include "ifsi/core/tensor.hpp"

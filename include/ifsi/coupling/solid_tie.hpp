@@ -2,8 +2,10 @@
 /// \file
 /// Solids whose nodes are further apart than the fluid's: what ties the fluid to them in between (eq. 44).
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
