@@ -40,7 +40,7 @@ class SolidTie {
       for (int& a : nodes) a += first_node;
       const auto length = cell_lengths<SolidElement>(C, nodes);
       const int home = first_found(C, nodes);
-      if (home >= 0 && *std::max_element(length.begin(), length.end()) > SolidElement::order * spacing_)
+      if (*std::max_element(length.begin(), length.end()) > SolidElement::order * spacing_)
         add_cell<SolidElement>(C.positions(), nodes, home, length);
     }
   }
