@@ -2,6 +2,7 @@
 /// \file
 /// Points spread evenly over a sphere.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -61,6 +62,12 @@ inline std::vector<Vec<double, 3>> icosphere_points(double radius, int frequency
 inline double icosphere_spacing(double radius, int frequency) {
   const double area = 4.0 * std::numbers::pi * radius * radius / (10.0 * frequency * frequency + 2.0);
   return std::sqrt(area * 2.0 / std::numbers::sqrt3);
+}
+
+/// The frequency with which neighbours come nearest to that distance.
+inline int icosphere_frequency(double radius, double spacing) {
+  const double n = 4.0 * std::numbers::pi * radius * radius * 2.0 / (std::numbers::sqrt3 * spacing * spacing);
+  return std::max(1, static_cast<int>(std::lround(std::sqrt(std::max(0.0, n - 2.0) / 10.0))));
 }
 
 }  // namespace ifsi

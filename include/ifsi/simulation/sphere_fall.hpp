@@ -95,9 +95,7 @@ std::vector<Vec<double, Element::dim>> surface_points(const SphereOptions& o,
     return boundary_points(sphere, 0);
   } else {
     std::vector<Vec<double, 3>> points;
-    const double parts = icosphere_spacing(o.a, 1000) * 1000.0 / (o.solid_spacing() * o.h());
-    const int frequency = std::max(1, static_cast<int>(std::lround(parts)));
-    for (const auto& x : icosphere_points(o.a, frequency))
+    for (const auto& x : icosphere_points(o.a, icosphere_frequency(o.a, o.solid_spacing() * o.h())))
       if (!o.is_cut() || std::min(x[0], x[1]) > -1e-9 * o.a) points.push_back(centre + x);
     return points;
   }
