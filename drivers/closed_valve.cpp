@@ -25,20 +25,20 @@ void closed_valve(Run& run) {
   o.declare(run.params);
   run.parse();
 
-  const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {4.0, 1.0}, o.n), run.comm());
   FlowBoundary<2> boundary;
   boundary.pressure("left", [=](double t) { return load * std::min(1.0, t / ramp); });
   boundary.traction_free("right");
   boundary.no_slip("top"), boundary.no_slip("bottom");
 
-  o.with_law(NeoHookean(Lame::from_young(E, nu)), [&](const auto& law) {
+  o.with_policies(NeoHookean(Lame::from_young(E, nu)), [&]<class Element>(const auto& law) {
+    const auto mesh = distribute(box<Element>({0.0, 0.0}, {4.0, 1.0}, o.n), run.comm());
     using Body = SolidBody<Quad1, std::decay_t<decltype(law)>>;
     const double half = 0.5 * o.thickness;
     std::vector<Body> beam;
     beam.emplace_back("beam", box<Quad1>({2.0 - half, 0.0}, {2.0 + half, 1.0}, o.n_s), law, o.solid());
     const int middle = nearest_node(beam[0], {2.0, 0.5});
-    FsiProblem<Quad1, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(beam), o.flow, o.fsi);
-    const Probe<Quad1> ends(mesh, {{1.0, 0.5}, {3.0, 0.5}});
+    FsiProblem<Element, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(beam), o.flow, o.fsi);
+    const Probe<Element> ends(mesh, {{1.0, 0.5}, {3.0, 0.5}});
     attach(run, problem);
 
     Signal leak, p_left, p_right;

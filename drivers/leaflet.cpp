@@ -21,7 +21,6 @@ void leaflet(Run& run) {
   o.declare(run.params);
   run.parse();
 
-  const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {4.0, 1.0}, o.n), run.comm());
   FlowBoundary<2> boundary;
   boundary.velocity("left", [](const auto& x, double t) {
     return Vec<double, 2>{15.0 * x[1] * (2.0 - x[1]) * std::sin(2.0 * std::numbers::pi * t), 0.0};
@@ -29,14 +28,15 @@ void leaflet(Run& run) {
   boundary.traction_free("right"), boundary.backflow("right", 0.5);
   boundary.slip("top"), boundary.no_slip("bottom");
 
-  o.with_law(UncoupledNeoHookean(C0, kappa_ratio * C0), [&](const auto& law) {
+  o.with_policies(UncoupledNeoHookean(C0, kappa_ratio * C0), [&]<class Element>(const auto& law) {
+    const auto mesh = distribute(box<Element>({0.0, 0.0}, {4.0, 1.0}, o.n), run.comm());
     using Body = SolidBody<Quad1, std::decay_t<decltype(law)>>;
     constexpr double height = 0.8;
     const double half = 0.5 * o.thickness;
     std::vector<Body> body;
     body.emplace_back("leaflet", box<Quad1>({x_0 - half, 0.0}, {x_0 + half, height}, o.n_s), law, o.solid());
     const int tip = nearest_node(body[0], {x_0, height});
-    FsiProblem<Quad1, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(body), o.flow, o.fsi);
+    FsiProblem<Element, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(body), o.flow, o.fsi);
     attach(run, problem);
 
     TipHistory history(run, problem, o.time.end, o.picture_every, tip, "m");

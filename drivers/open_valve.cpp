@@ -28,8 +28,6 @@ void open_valve(Run& run) {
   constexpr double length = 8.0, height = 1.61, tip_y = height - 0.7, x_1 = 2.0;
   const double x_0 = x_1 - o.thickness;
   if (symmetry) o.n[1] /= 2;
-  const auto mesh =
-      distribute(box<Quad1>({0.0, symmetry ? 0.5 * height : 0.0}, {length, height}, o.n), run.comm());
   FlowBoundary<2> boundary;
   boundary.velocity("left", [](const auto& x, double t) {
     const double pulse = 5.0 * (std::sin(2.0 * std::numbers::pi * t) + 1.1);
@@ -39,15 +37,17 @@ void open_valve(Run& run) {
   boundary.no_slip("top");
   symmetry ? boundary.slip("bottom") : boundary.no_slip("bottom");
 
-  o.with_law(NeoHookean(Lame::from_young(E, nu)), [&](const auto& law) {
+  o.with_policies(NeoHookean(Lame::from_young(E, nu)), [&]<class Element>(const auto& law) {
+    const auto mesh =
+        distribute(box<Element>({0.0, symmetry ? 0.5 * height : 0.0}, {length, height}, o.n), run.comm());
     using Body = SolidBody<Quad1, std::decay_t<decltype(law)>>;
     std::vector<Body> leaflets;
     leaflets.emplace_back("top leaflet", box<Quad1>({x_0, tip_y}, {x_1, height}, o.n_s), law, o.solid());
     if (!symmetry)
       leaflets.emplace_back("bottom leaflet", box<Quad1>({x_0, 0.0}, {x_1, 0.7}, o.n_s), law, o.solid());
     const int tip = nearest_node(leaflets[0], {0.5 * (x_0 + x_1), tip_y});
-    FsiProblem<Quad1, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(leaflets), o.flow,
-                                    o.fsi);
+    FsiProblem<Element, Body> problem(mesh, boundary, o.rho, Newtonian{o.mu}, std::move(leaflets), o.flow,
+                                      o.fsi);
     attach(run, problem);
 
     TipHistory history(run, problem, o.time.end, o.picture_every, tip, "cm");

@@ -14,19 +14,42 @@
 
 namespace ifsi {
 
-/// The section of a mesh of linear tetrahedra with the plane where coordinate `axis` is `at`. The plane cuts
+namespace detail {
+
+/// Tetrahedra between the nodes of a cell: itself, or the eighths of one of order 2.
+template <class Element>
+constexpr auto node_tetrahedra() {
+  if constexpr (Element::n_nodes == 4)
+    return std::array<std::array<int, 4>, 1>{{{0, 1, 2, 3}}};
+  else
+    return std::array<std::array<int, 4>, 8>{{{0, 4, 6, 7},
+                                              {4, 1, 5, 8},
+                                              {6, 5, 2, 9},
+                                              {7, 8, 9, 3},
+                                              {4, 9, 5, 6},
+                                              {4, 9, 6, 7},
+                                              {4, 9, 7, 8},
+                                              {4, 9, 8, 5}}};
+}
+
+}  // namespace detail
+
+/// The section of a mesh of tetrahedra with the plane where coordinate `axis` is `at`. The plane cuts
 /// a cell in a triangle or a quadrilateral, over which a linear field integrates exactly: what is kept is a
-/// weight per node. A plane through nodes is taken to pass just below them. Collective throughout.
+/// weight per node. Fields of order 2 are taken as linear in each eighth of their cells. A plane through
+/// nodes is taken to pass just below them. Collective throughout.
 template <class Element>
 class Section {
-  static_assert(Element::dim == 3 && Element::linear && Element::n_nodes == 4);
+  static_assert(Element::dim == 3 && (Element::n_nodes == 4 || Element::n_nodes == 10));
   using Point = Vec<double, 3>;
 
  public:
   /// \throws Error (configuration) when the plane misses the mesh.
   Section(const Mesh<Element>& mesh, int axis, double at) : comm_(mesh.comm) {
     std::map<int, double> weights;
-    for (int c = 0; c < mesh.n_owned_cells; ++c) add_cell(mesh, c, axis, at, weights);
+    for (int c = 0; c < mesh.n_owned_cells; ++c)
+      for (const auto& nodes : detail::node_tetrahedra<Element>())
+        add_tetrahedron(mesh, c, nodes, axis, at, weights);
     weights_.assign(weights.begin(), weights.end());
     for (const auto& [node, weight] : weights_) area_ += weight;
     area_ = comm_.sum(area_);
@@ -55,11 +78,11 @@ class Section {
     Point x;
   };
 
-  static void add_cell(const Mesh<Element>& mesh, int c, int axis, double at,
-                       std::map<int, double>& weights) {
+  static void add_tetrahedron(const Mesh<Element>& mesh, int c, const std::array<int, 4>& nodes, int axis,
+                              double at, std::map<int, double>& weights) {
     const auto X = mesh.cell_coordinates(c);
     std::vector<int> low, high;
-    for (int a = 0; a < 4; ++a) (X[a][axis] < at ? low : high).push_back(a);
+    for (int a : nodes) (X[a][axis] < at ? low : high).push_back(a);
     if (low.empty() || high.empty()) return;
     const auto corner = [&](int a, int b) {
       const double t = (at - X[a][axis]) / (X[b][axis] - X[a][axis]);

@@ -124,6 +124,17 @@ class FlowCell {
     }
   }
 
+  /// s at a point, between its nodal values: shape functions of order 2 would undershoot where s jumps, and
+  /// a negative s has no tau_M.
+  [[gnu::always_inline]] static T between_nodes(int q, const std::array<T, n>& s) {
+    if constexpr (Element::order == 1) return interpolate(Table::N[q], s);
+    std::array<double, n> weights;
+    double sum = 0.0;
+    for (int a = 0; a < n; ++a) sum += weights[a] = std::abs(Table::N[q][a]);
+    for (double& w : weights) w /= sum;
+    return interpolate(weights, s);
+  }
+
   [[gnu::always_inline]] void evaluate_point(int q, const FlowCellData<Element, T>& cell,
                                              const std::array<Vec<T, dim>, n>& acceleration,
                                              const Basis& basis, FlowPoint<T, dim>& x,
@@ -131,7 +142,7 @@ class FlowCell {
     x.v = interpolate(Table::N[q], cell.v);
     x.acceleration = interpolate(Table::N[q], acceleration);
     x.p = interpolate(Table::N[q], cell.p);
-    x.s = interpolate(Table::N[q], cell.s);
+    x.s = between_nodes(q, cell.s);
     x.k_p = cell.k_p;
     x.radius = Model::Coordinates::axisymmetric ? interpolate(Table::N[q], cell.X)[0] : T(1.0);
     x.JxW = Rule::weights[q] * basis.det_J * Model::Coordinates::measure(x.radius) * cell.fraction;

@@ -11,6 +11,7 @@
 
 #include "ifsi/material/materials.hpp"
 #include "ifsi/simulation/balances.hpp"
+#include "ifsi/simulation/dispatch.hpp"
 #include "ifsi/simulation/flow_case.hpp"
 #include "ifsi/simulation/fsi_problem.hpp"
 #include "ifsi/simulation/law_choice.hpp"
@@ -25,6 +26,7 @@ struct LeafletOptions {
   std::array<int, 2> n,
       n_s;  ///< fluid cells along and across the channel, solid cells through and along the leaflet
   double rho = 100.0, mu = 10.0, density_ratio = 1.0, thickness = 0.0212, picture_every = 0.1;
+  std::string element = "quad1";  ///< of the fluid
   LawChoice law;
   TimeOptions time;
   FlowOptions flow;
@@ -37,6 +39,7 @@ struct LeafletOptions {
   void declare(Parameters& params) {
     params.add("mesh.nx", n[0], "-", "fluid cells along the channel", {8, 4096});
     params.add("mesh.ny", n[1], "-", "fluid cells across the channel", {4, 1024});
+    params.add_choice("mesh.element", element, {"quad1", "quad2"}, "element of the fluid");
     params.add("solid.n_thick", n_s[0], "-", "solid cells through the thickness", {1, 64});
     params.add("solid.n_high", n_s[1], "-", "solid cells along the leaflet", {4, 2000});
     params.add("fluid.rho", rho, "mass/length^3", "density of the fluid", positive);
@@ -46,11 +49,14 @@ struct LeafletOptions {
     params.add("output.every", picture_every, "time", "time between pictures", positive);
     law.declare(params), time.declare(params), flow.declare(params), fsi.declare(params);
   }
-  /// Calls scene(law) with the law as it is or, for solid.law = sheet, that of an upright sheet of it.
+  /// Calls scene<Element>(law) with the fluid's element, and the law as it is or, for solid.law = sheet, that
+  /// of an upright sheet of it.
   template <SolidLaw Law, class Scene>
-  void with_law(const Law& volume, Scene&& scene) const {
-    if (!law.is_sheet()) return scene(volume);
-    scene(law.sheet(volume, {1.0, 0.0, 0.0}));
+  void with_policies(const Law& volume, Scene&& scene) const {
+    dispatch_element<Quad1, Quad2>(element, [&]<class Element>() {
+      if (!law.is_sheet()) return scene.template operator()<Element>(volume);
+      scene.template operator()<Element>(law.sheet(volume, {1.0, 0.0, 0.0}));
+    });
   }
   /// Parameters of a solid that displaces this fluid.
   [[nodiscard]] SolidParameters<2> solid() const {

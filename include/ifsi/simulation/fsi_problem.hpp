@@ -519,5 +519,7 @@ extern template class ImmersedSolids<SolidBody<Quad1, NeoHookean>>;
 extern template class ImmersedSolids<SolidBody<Quad1, ThinSheet<NeoHookean>>>;
 extern template class FsiProblem<Quad1, SolidBody<Quad1, NeoHookean>>;
 extern template class FsiProblem<Quad1, SolidBody<Quad1, ThinSheet<NeoHookean>>>;
+extern template class FsiProblem<Quad2, SolidBody<Quad1, NeoHookean>>;
+extern template class FsiProblem<Quad2, SolidBody<Quad1, ThinSheet<NeoHookean>>>;
 
 }  // namespace ifsi
