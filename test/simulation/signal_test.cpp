@@ -31,6 +31,21 @@ TEST(SignalFigures, FrequencyAndMean) {
   EXPECT_EQ(s.last(), s.at(3.0));
 }
 
+// A window takes the noise of steps away and a known part of the curve; the ends, where it is cut, as well.
+TEST(SignalFigures, WindowsTakeNoiseAway) {
+  Signal noisy;
+  const double dt = 0.01, width = 0.1, pi = std::numbers::pi;
+  for (int k = 0; k <= 300; ++k)
+    noisy.add(k * dt, 2.0 + 5.0 * std::sin(2.0 * pi * k * dt) + (k % 2 == 0 ? 0.8 : -0.8));
+  const Signal smooth = noisy.averaged(width);
+  const double kept = std::sin(pi * width) / (pi * width);
+  EXPECT_NEAR(smooth.max().value, 2.0 + 5.0 * kept, 0.01);
+  EXPECT_NEAR(smooth.min().value, 2.0 - 5.0 * kept, 0.01);
+  EXPECT_NEAR(smooth.frequency(0.0), 1.0, 1e-3);
+  EXPECT_NEAR(smooth.max(2.951).value, 0.0, 0.0);  // nothing there
+  EXPECT_EQ(noisy.averaged(0.0).max().value, noisy.max().value);
+}
+
 // A large step, then a tiny one with a jump: the parabola through the three has its top far below all of
 // them.
 TEST(SignalFigures, UnequalStepsDoNotThrowTheExtremeAway) {

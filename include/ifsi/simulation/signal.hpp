@@ -58,6 +58,21 @@ class Signal {
     return length > 0.0 ? sum / length : 0.0;
   }
 
+  /// At each sample the mean over the width around it, as far as that lies within the record: what is slower
+  /// stays (a sine of frequency f keeps sin(pi f width) / (pi f width) of its amplitude), noise from step to
+  /// step goes. Itself for a width of 0.
+  [[nodiscard]] Signal averaged(double width) const {
+    if (samples_.empty() || width <= 0.0) return *this;
+    const Signal integral = integrated();
+    Signal result;
+    for (const Extreme& s : samples_) {
+      const double from = s.t - 0.5 * width, to = s.t + 0.5 * width;
+      if (from >= samples_.front().t && to <= samples_.back().t)
+        result.add(s.t, (integral.at(to) - integral.at(from)) / width);
+    }
+    return result;
+  }
+
   /// Value at time t, linear between samples, constant beyond the ends.
   [[nodiscard]] double at(double t) const {
     const auto right = std::lower_bound(samples_.begin(), samples_.end(), t,
@@ -69,6 +84,17 @@ class Signal {
   }
 
  private:
+  /// Integral over time from the first sample on (trapezoidal), at the samples.
+  [[nodiscard]] Signal integrated() const {
+    Signal sums;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (k > 0)
+        sum += 0.5 * (samples_[k - 1].value + samples_[k].value) * (samples_[k].t - samples_[k - 1].t);
+      sums.add(samples_[k].t, sum);
+    }
+    return sums;
+  }
   [[nodiscard]] Extreme extreme(double t_from, double sign) const {
     std::size_t best = samples_.size();
     for (std::size_t k = 0; k < samples_.size(); ++k)

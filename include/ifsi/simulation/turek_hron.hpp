@@ -121,11 +121,12 @@ class TurekHronCurves {
   }
 
   /// Final values of a steady test; else means, amplitudes and frequencies from t_from on.
-  void report(Run& run, const TurekHronTest& test, double t_from) const {
+  /// \param force_window forces are averaged over it
+  void report(Run& run, const TurekHronTest& test, double t_from, double force_window = 0.0) const {
     const bool rigid = test.name[0] == 'C';
     for (const TurekHronReference& ref : turek_hron_references()) {
       if (ref.test != test.name) continue;
-      const Signal& curve = curves_.at(ref.figure);
+      const Signal curve = curves_.at(ref.figure).averaged(is_force(ref.figure) ? force_window : 0.0);
       const std::string source = rigid ? "Turek & Hron 2006" : "Turek et al. 2010";
       if (test.steady()) {
         run.metric(ref.figure, curve.last(), unit(ref.figure));
@@ -146,7 +147,8 @@ class TurekHronCurves {
   }
 
  private:
-  static std::string unit(const std::string& figure) { return figure[0] == 't' ? "mm" : "N/m"; }
+  static bool is_force(const std::string& figure) { return figure == "drag" || figure == "lift"; }
+  static std::string unit(const std::string& figure) { return is_force(figure) ? "N/m" : "mm"; }
 
   std::map<std::string, Signal> curves_;
 };
