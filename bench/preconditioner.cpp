@@ -26,7 +26,7 @@ const Scene closed_valve{"closed", 4.0, 1.0, 1e-2, {{1.9894, 0.0, 2.0106, 1.0}},
 
 struct Values {
   double E = 5.6e7, dt = 0.0, s = 1.0;
-  int layers = 2;
+  int layers = -1;
   std::string base = "auto";
 };
 
@@ -97,7 +97,7 @@ struct Ranges {
   std::vector<double> E{1e3, 5.6e7, 1e9}, dt{1e-5, 1e-3, 1e-1}, s{1, 100, 1e5};
   std::vector<double> refinements{1};
   std::array<int, 2> steps{10, 20};
-  int layers = 2;
+  int layers = -1;
 };
 
 void survey(Run& run, CsvFile& csv, const Scene& scene, const Ranges& ranges) {
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
     run.params.add("dt", ranges.dt, "s", "time steps");
     run.params.add("s", ranges.s, "-", "scales s of tau_M around the solid");
     run.params.add("refinements", ranges.refinements, "-", "1: about 13,000 unknowns; 2: 50,000; 4: 200,000");
-    run.params.add("layers", ranges.layers, "-", "layers of the patch", {0, 100});
+    run.params.add("layers", ranges.layers, "-", "layers of the patch (-1: as runs take)", {-1, 100});
     run.params.add("steps", ranges.steps[0], "-", "steps to the state whose set-up is kept", {1, 10000});
     run.params.add("steps_solved", ranges.steps[1], "-", "steps to the state that is solved", {2, 10000});
     run.parse();

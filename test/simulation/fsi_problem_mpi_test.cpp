@@ -632,6 +632,23 @@ TEST(FsiProblem, RingsHaveTheScaleOfCutCells) {
   EXPECT_GT(scaled(ringed), 2 * scaled(plain));
 }
 
+// The patch of the preconditioner reaches as far as momentum diffuses in a step.
+TEST(FsiProblem, PatchGrowsWithTheTimeStep) {
+  const auto mesh = channel_mesh(Communicator());
+  const double mu = 2.5;  // momentum diffuses half a spacing in 0.001, ten in 0.4
+  const auto unknowns = [&](int layers, double dt) {
+    FsiOptions options = fsi_options(0.0);
+    options.patch_layers = layers;
+    Probed problem(mesh, flow_options(), options, leaflet(), channel(), mu);
+    problem.begin_step(1e-3);
+    problem.begin_step(dt);  // no node has changed its cell
+    return problem.linear_solver().patch_unknowns();
+  };
+  EXPECT_EQ(unknowns(-1, 1e-3), unknowns(2, 1e-3));
+  EXPECT_EQ(unknowns(-1, 0.4), unknowns(4, 0.4));
+  EXPECT_GT(unknowns(4, 0.4), unknowns(2, 0.4));
+}
+
 TEST(FsiProblem, SealsThatCannotWorkAreRefused) {
   const auto mesh = channel_mesh(Communicator());
   FsiOptions fsi = fsi_options(0.0, "exact");

@@ -37,8 +37,9 @@ struct FsiOptions {
   double seal_range = 2.0;        ///< gap from which on there is none, in fluid spacings
   double tie = 0.0;               ///< friction between the solid's nodes, per volume (eq. 44); 0: none
   double tie_spacing = 0.5;       ///< of its points, in fluid spacings
-  /// Layers of fluid nodes around the cut cells that are solved for directly. -1: two; none in space at s =
-  /// 1, where they cost more than all else and save no iterations.
+  /// Layers of fluid nodes around the cut cells that are solved for directly. -1: two, in the plane more
+  /// where momentum diffuses further within a step; none in space at s = 1, where they cost more than all
+  /// else and save no iterations.
   int patch_layers = -1;
   PatchedSolverOptions linear;
 
@@ -70,7 +71,8 @@ struct FsiOptions {
     params.add("contact.seal_range", seal_range, "-", "gap in fluid spacings from which on there is none",
                positive);
     params.add("coupling.patch_layers", patch_layers, "-",
-               "layers around the cut cells solved for directly (-1: by dimension and s)", {-1, 20});
+               "layers around the cut cells solved for directly (-1: by dimension, s and time step)",
+               {-1, 20});
     params.add_choice("coupling.base", linear.base, {"auto", "direct", "gmres"},
                       "preconditioner of the fluid alone");
   }
@@ -354,8 +356,23 @@ class FsiProblem : public FlowProblem<Element, Model> {
   }
   /// In space an LU costs much, and at s = 1 the fluid's equations know little of the solid.
   [[nodiscard]] bool patch_is_dear() const { return Flow::dim == 3 && fsi_.s.s_max == 1.0; }
-  [[nodiscard]] int patch_layers() const {
-    return fsi_.patch_layers >= 0 ? fsi_.patch_layers : patch_is_dear() ? 0 : 2;
+  [[nodiscard]] int patch_layers(double dt) const {
+    if (fsi_.patch_layers >= 0) return fsi_.patch_layers;
+    if (Flow::dim == 3) return patch_is_dear() ? 0 : 2;
+    return std::clamp(static_cast<int>(std::lround(0.4 * diffusion_length(dt))), 2, 8);
+  }
+  /// How far momentum diffuses in dt, in spacings of the fluid's nodes around the solids, the largest of all.
+  [[nodiscard]] double diffusion_length(double dt) const {
+    const double length = std::sqrt(this->fluid_.rheology.viscosity(0.0) / this->fluid_.rho * dt);
+    double largest = 0.0;
+    for (int a = 0; a < solids_.n_nodes(); ++a)
+      if (C_.row(a).found())
+        for (int d = 0; d < Flow::dim; ++d) {
+          auto e = Point::zero();
+          e[d] = length;
+          largest = std::max(largest, length_in_cells(C_.row(a), e));
+        }
+    return largest;
   }
 
   /// C, cut cells, s-field and the patch for the positions the solids are expected at.
@@ -367,7 +384,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
     for (int c : cut_.with_rings(fsi_.k_p_rings)) this->k_p_[c] = fsi_.k_p;
     if (fraction_at_) this->fraction_ = fraction_at_(C_.positions());
     if (fsi_.s.s_max > 1.0) this->s_ = cut_.stabilisation(fsi_.s);
-    update_pattern();
+    const int layers_before = std::exchange(patch_layers_, patch_layers(dt));
+    update_pattern(patch_layers_ != layers_before);
   }
 
   /// Nodes and points of friction; these may lie outside: between surfaces in a bulging vessel, or where a
@@ -384,15 +402,16 @@ class FsiProblem : public FlowProblem<Element, Model> {
     return std::lower_bound(lost.begin(), lost.end(), solids_.n_nodes()) - lost.begin();
   }
 
-  /// The pattern of C K_s C^T, and the patch on it, if a node has changed its fluid cell.
-  void update_pattern() {
-    if (!K_s_.update()) return;
+  /// The pattern of C K_s C^T, and the patch on it, if a node has changed its fluid cell, or the patch its
+  /// size.
+  void update_pattern(bool other_layers = false) {
+    if (!K_s_.update() && !other_layers) return;
     K_s_constrained_ = BlockCsr<Flow::B>(K_s_.matrix().shared_pattern());
     constraints_s_ =
         this->system_.constraints().carried_to(K_s_constrained_.layout(), mesh().n_owned_nodes());
     constraints_s_.update_ghosts(K_s_constrained_.layout());
     std::vector<char> in_patch;
-    for (int layer : cut_.layers(patch_layers())) in_patch.push_back(layer <= patch_layers());
+    for (int layer : cut_.layers(patch_layers_)) in_patch.push_back(layer <= patch_layers_);
     patched_.set_patch(this->K_, K_s_constrained_, in_patch);
   }
 
@@ -510,7 +529,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   bool settled_ = true;
   std::vector<double> new_v_, spread_;
   double min_det_F_ = 1.0, spread_norm_ = 0.0, c_of_patch_ = -1.0;
-  int worst_cell_ = -1;
+  int worst_cell_ = -1, patch_layers_ = 0;
   std::size_t n_held_ = 0;  ///< nodes outside of the mesh from the beginning
 };
 
