@@ -5,6 +5,6 @@ namespace ifsi {
 template class SolidBody<Quad1, ThinSheet<NeoHookean>>;
 template class SolidBody<Quad1, ThinSheet<StVenantKirchhoff>>;
 template class SolidBody<Quad1, ThinSheet<UncoupledNeoHookean>>;
-template class SolidBody<Hex2, ThinSheet<NeoHookean>, Sheet>;
+template class SolidBody<Hex2, TensionFibres<ThinSheet<NeoHookean>>, FibredSheet>;
 
 }  // namespace ifsi

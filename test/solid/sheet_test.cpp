@@ -61,6 +61,30 @@ TEST(Fibred, FindsTheFirstAxisOfACell) {
               residual<Displacement>(data, law(Q * Point{1.0 / length, 0.2 / length, 0.0})));
 }
 
+TEST(FibredSheet, FindsBoth) {
+  const Data data = turned_cell(Q);
+  const auto law = [](const Point& normal, const Point& direction) {
+    return TensionFibres(ThinSheet(matrix, normal, 0.05, 0.3), 5.0, direction);
+  };
+  const double length = std::hypot(1.0, 0.2);
+  expect_same(residual<FibredSheet>(data, law(wrong, wrong)),
+              residual<Displacement>(
+                  data, law(Q * Point{0.0, 0.0, 1.0}, Q * Point{1.0 / length, 0.2 / length, 0.0})));
+}
+
+// Fibres lie in the sheet: the director, which relaxes the matrix, does not stretch them.
+TEST(FibredSheet, IsTheSumOfItsParts) {
+  const Point N{0.6, 0.8, 0.0}, A{0.8, -0.6, 0.0};
+  const ThinSheet sheet(matrix, N, 0.05, 0.3);
+  const TensionFibres both(sheet, 5.0, A);
+  const TensionFibres fibres(matrix, 5.0, A);
+  const Mat<double, 3> F{1.2, 0.1, -0.2, 0.05, 0.9, 0.1, 0.15, 0.0, 1.1};
+  const Mat<double, 3> sum =
+      sheet.first_piola(F, wrong) + fibres.first_piola(F, wrong) - matrix.first_piola(F, wrong);
+  const Mat<double, 3> P = both.first_piola(F, wrong);
+  for (int k = 0; k < 9; ++k) EXPECT_NEAR(P.data[k], sum.data[k], 1e-13);
+}
+
 // Stretched along the fibres the law carries their stress, shortened only its matrix.
 TEST(TensionFibres, AreSlackInCompression) {
   const TensionFibres law(matrix, 5.0, {1.0, 0.0, 0.0});

@@ -551,6 +551,6 @@ extern template class SolidBody<Hex2, NeoHookean>;
 extern template class SolidBody<Quad1, ThinSheet<NeoHookean>>;
 extern template class SolidBody<Quad1, ThinSheet<StVenantKirchhoff>>;
 extern template class SolidBody<Quad1, ThinSheet<UncoupledNeoHookean>>;
-extern template class SolidBody<Hex2, ThinSheet<NeoHookean>, Sheet>;
+extern template class SolidBody<Hex2, TensionFibres<ThinSheet<NeoHookean>>, FibredSheet>;
 
 }  // namespace ifsi

@@ -42,19 +42,21 @@ class TensionFibres {
   }
   [[nodiscard]] double young_modulus() const { return law_.young_modulus(); }
 
-  // The same where the caller knows the direction A at X.
-  template <class T, int n, int dim>
-  T psi(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A) const {
+  // The same where the caller knows the direction A at X, and what the matrix asks for (a sheet: its normal).
+  template <class T, int n, int dim, class... Known>
+  T psi(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A, const Known&... of_matrix) const {
     const T s = stretched(F, A);
-    return T(law_.psi(F, X) + 0.125 * modulus_ * s * s);
+    return T(law_.psi(F, X, of_matrix...) + 0.125 * modulus_ * s * s);
   }
-  template <class T, int n, int dim>
-  Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A) const {
-    return law_.first_piola(F, X) + T(0.5 * modulus_ * stretched(F, A)) * outer(F * A, A);
+  template <class T, int n, int dim, class... Known>
+  Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A,
+                        const Known&... of_matrix) const {
+    return law_.first_piola(F, X, of_matrix...) + T(0.5 * modulus_ * stretched(F, A)) * outer(F * A, A);
   }
-  template <class T, int n, int dim>
-  Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A) const {
-    Tangent<T, n> K = law_.tangent(F, X);
+  template <class T, int n, int dim, class... Known>
+  Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A,
+                        const Known&... of_matrix) const {
+    Tangent<T, n> K = law_.tangent(F, X, of_matrix...);
     const Vec<T, n> a = F * A;
     const T s = stretched(F, A), taut = s / (s + 1e-14);  // 1 or 0
     K += tangent_from<T, n>(

@@ -12,8 +12,8 @@ namespace ifsi {
 
 /// A law of the sheet's own plane, with little stiffness against shear through the thickness (eq. 29):
 ///
-///     psi~(F) = min over d of psi(F Q + d (x) N) + shear / 2 |Q F^T F N|^2 + kappa / 2 (J - 1)^2,   Q = I -
-///     N (x) N
+///     psi~(F) = min over d of psi(F Q + d (x) N) + shear / 2 |Q F^T F N|^2 + kappa / 4 (J^2 - 1 - 2 ln J),
+///     Q = I - N (x) N
 ///
 /// The director d replaces F N: stretched or bent, the sheet is in plane stress. In an immersed thin body
 /// this cures two errors of a three-dimensional law. Its nodes move as the fluid's shape functions allow,
@@ -54,9 +54,11 @@ class ThinSheet {
   // The same where the sheet is curved and the caller knows its unit normal N at X.
   template <class T, int n, int dim>
   T psi(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
+    using std::log;
     const Vec<T, n> g = shear_strain(F, N);
-    const T J_1 = det(F) - T(1.0);
-    return T(law_.psi(relaxed(F, X, N), X) + 0.5 * shear_ * dot(g, g) + 0.5 * kappa_ * J_1 * J_1);
+    const T J = det(F);
+    return T(law_.psi(relaxed(F, X, N), X) + 0.5 * shear_ * dot(g, g) +
+             0.25 * kappa_ * (J * J - 1.0 - 2.0 * log(J)));
   }
   template <class T, int n, int dim>
   Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
@@ -64,13 +66,13 @@ class ThinSheet {
     const T J = det(F);
     return law_.first_piola(relaxed(F, X, N), X) * in_plane(N) +
            T(shear_) * (outer(F * N, g) + outer(F * g, N)) +
-           T(kappa_ * (J - 1.0) * J) * transpose(inverse(F));
+           T(0.5 * kappa_ * (J * J - 1.0)) * transpose(inverse(F));
   }
   template <class T, int n, int dim>
   Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
     Tangent<T, n> A = membrane_tangent(F, X, N);
     add_shear(F, N, A);
-    const T J = det(F), k_2 = kappa_ * (2.0 * J - 1.0) * J, k_1 = kappa_ * (J - 1.0) * J;
+    const T J = det(F), k_2 = kappa_ * J * J, k_1 = 0.5 * kappa_ * (J * J - 1.0);
     const Mat<T, n> G = transpose(inverse(F));
     return A + tangent_from<T, n>([&](int i, int M, int k, int L) {
              return T(k_2 * G(i, M) * G(k, L) - k_1 * G(i, L) * G(k, M));

@@ -64,8 +64,8 @@ struct ValveOptions {
     params.add("solid.rho", rho_s, "g/cm^3", "density of the leaflets", positive);
     params.add("solid.E", E, "dyn/cm^2", "Young's modulus", positive);
     params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
-    params.add("solid.fibres", fibres, "dyn/cm^2",
-               "modulus of fibres between the commissures (eq. 43); sheets have none", non_negative);
+    params.add("solid.fibres", fibres, "dyn/cm^2", "modulus of fibres between the commissures (eq. 43)",
+               non_negative);
     law.declare(params);
     params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
     params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);

@@ -16,7 +16,7 @@ struct CellDeformation {
   std::array<Mat<T, n>, n_points> F;
   std::array<Vec<T, dim>, n_points> X;
   std::array<T, n_points> dV;
-  std::array<Vec<T, n>, n_points> N;  ///< unit normal of a sheet (Sheet), direction of fibres (Fibred)
+  std::array<Vec<T, n>, n_points> N, A;  ///< unit normal of a sheet, direction of fibres: where asked for
 };
 
 /// Second derivatives of an energy psi(F, theta).
@@ -59,10 +59,11 @@ struct Displacement {
   };
 };
 
-/// A law of thin sheets (eq. 29) on a curved sheet of hexes, whose third local axis runs through the
-/// thickness: the normal at a point is that of its first two.
-struct Sheet {
-  static constexpr bool mean_dilatation = false, sheet = true, fibred = false;
+/// Laws that are told directions of the cell, a curved sheet of hexes: the direction of fibres, which is that
+/// of the first local axis, and the normal of the sheet, whose plane is that of the first two.
+template <bool sheet_, bool fibred_>
+struct Directed {
+  static constexpr bool mean_dilatation = false, sheet = sheet_, fibred = fibred_;
 
   template <SolidLaw Law, class T, int n, int dim, int n_points>
   class Response {
@@ -70,12 +71,14 @@ struct Sheet {
     using Cell = CellDeformation<T, n, dim, n_points>;
     Response(const Law& law, const Cell& cell) : law_(law), cell_(cell) {}
 
-    [[nodiscard]] T energy(int q) const { return law_.psi(cell_.F[q], cell_.X[q], cell_.N[q]); }
+    [[nodiscard]] T energy(int q) const {
+      return told(q, [&](const auto&... d) { return law_.psi(cell_.F[q], cell_.X[q], d...); });
+    }
     [[nodiscard]] Mat<T, n> first_piola(int q) const {
-      return law_.first_piola(cell_.F[q], cell_.X[q], cell_.N[q]);
+      return told(q, [&](const auto&... d) { return law_.first_piola(cell_.F[q], cell_.X[q], d...); });
     }
     [[nodiscard]] Tangent<T, n> tangent(int q) const {
-      return law_.tangent(cell_.F[q], cell_.X[q], cell_.N[q]);
+      return told(q, [&](const auto&... d) { return law_.tangent(cell_.F[q], cell_.X[q], d...); });
     }
     /// Cauchy stress.
     [[nodiscard]] Mat<T, 3> cauchy(int q) const {
@@ -84,18 +87,25 @@ struct Sheet {
     }
 
    private:
+    template <class Call>
+    [[nodiscard]] auto told(int q, Call&& call) const {
+      if constexpr (sheet && fibred) {
+        return call(cell_.A[q], cell_.N[q]);
+      } else if constexpr (sheet) {
+        return call(cell_.N[q]);
+      } else {
+        return call(cell_.A[q]);
+      }
+    }
+
     const Law& law_;
     const Cell& cell_;
   };
 };
 
-/// A law with fibres along the first local axis of the cells.
-struct Fibred {
-  static constexpr bool mean_dilatation = false, sheet = false, fibred = true;
-
-  template <SolidLaw Law, class T, int n, int dim, int n_points>
-  using Response = Sheet::Response<Law, T, n, dim, n_points>;  // both pass on a direction
-};
+using Sheet = Directed<true, false>;       ///< a law of thin sheets (eq. 29)
+using Fibred = Directed<false, true>;      ///< a law with fibres (eq. 43)
+using FibredSheet = Directed<true, true>;  ///< fibres in a thin sheet
 
 namespace detail {
 

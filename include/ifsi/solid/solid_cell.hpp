@@ -146,7 +146,7 @@ class SolidCell {
     }
     deformation_.X[q] = X;
     if constexpr (Formulation::sheet) deformation_.N[q] = unit_normal(J);
-    if constexpr (Formulation::fibred) deformation_.N[q] = unit_tangent(J);
+    if constexpr (Formulation::fibred) deformation_.A[q] = unit_tangent(J);
     deformation_.dV[q] = Table::weights[q] * det(J) * Coordinates::measure(X[0]);
     deformation_.F[q] = gradient(q, cell_.u) + Mat<T, n>::identity();
   }
