@@ -17,7 +17,7 @@ namespace ifsi {
 struct ValveOptions {
   static constexpr double z_inlet = -4.0;
 
-  std::string model = "sector", drive = "pressure", curve;
+  std::string model = "sector", element = "tet1", drive = "pressure", curve;
   LawChoice law;
   AorticRoot root;
   Leaflet leaflet;
@@ -45,6 +45,7 @@ struct ValveOptions {
     params.add("root.commissure", root.commissure, "cm", "height of the commissures", positive);
     params.add("root.lobe", root.lobe, "-", "depth of a sinus over the radius", {0.0, 1.0});
     params.add("root.downstream", downstream, "cm", "vessel behind the root", positive);
+    params.add_choice("mesh.element", element, {"tet1", "tet2"}, "element of the fluid");
     params.add("mesh.h", h, "cm", "fluid cells far from the valve", positive);
     params.add("mesh.h_valve", h_valve, "cm", "fluid cells around the valve", positive);
     params.add("mesh.growth", growth, "-", "of the cells per length away from the valve", positive);
@@ -59,7 +60,8 @@ struct ValveOptions {
                non_negative);
     params.add("solid.protrusion_max", protrusion_max, "cm", "no node may lie further outside of the vessel",
                non_negative);
-    params.add("solid.spacing", spacing, "-", "of the leaflets' nodes over mesh.h_valve", {0.05, 2.0});
+    params.add("solid.spacing", spacing, "-", "of the leaflets' nodes over the fluid's at the valve",
+               {0.05, 2.0});
     params.add("solid.layers", layers, "-", "cells through the thickness", {1, 4});
     params.add("solid.rho", rho_s, "g/cm^3", "density of the leaflets", positive);
     params.add("solid.E", E, "dyn/cm^2", "Young's modulus", positive);

@@ -9,6 +9,7 @@
 
 #include "ifsi/assembly/section.hpp"
 #include "ifsi/io/run_gmsh.hpp"
+#include "ifsi/mesh/elevate.hpp"
 #include "ifsi/mesh/gmsh.hpp"
 #include "ifsi/simulation/flow_curve.hpp"
 #include "ifsi/simulation/fsi_case.hpp"
@@ -17,8 +18,22 @@
 
 namespace ifsi {
 
+/// The straight vessel in cells of order 1 as they are, in cells of order 2 with their nodes on the wall.
+template <class Element>
+GlobalMesh<Element> in_cells_of(const GlobalMesh<Tet1>& vessel, double radius) {
+  if constexpr (Element::order == 1)
+    return vessel;
+  else
+    return elevate<Element>(vessel, [&](int boundary, const Vec<double, 3>& x) {
+      const double stretch = radius / std::hypot(x[0], x[1]);
+      return vessel.boundary_names[boundary] == "wall" ? Vec<double, 3>{stretch * x[0], stretch * x[1], x[2]}
+                                                       : x;
+    });
+}
+
 /// The vessel of the root: a straight one, or a wedge of it, from Gmsh, its points mapped.
-inline GlobalMesh<Tet1> vessel_mesh(const Run& run, const ValveOptions& o, const std::string& script) {
+template <class Element>
+GlobalMesh<Element> vessel_mesh(const Run& run, const ValveOptions& o, const std::string& script) {
   const std::string file = run_gmsh(run.comm(), script,
                                     {{"radius", o.root.radius},
                                      {"z_inlet", o.z_inlet},
@@ -31,7 +46,7 @@ inline GlobalMesh<Tet1> vessel_mesh(const Run& run, const ValveOptions& o, const
                                      {"growth", o.growth},
                                      {"wall_ratio", o.wall_ratio}},
                                     run.path(""));
-  auto mesh = read_gmsh<Tet1>(file);
+  auto mesh = in_cells_of<Element>(read_gmsh<Tet1>(file), o.root.radius);
   for (auto& x : mesh.points) x = o.root.map(x);
   check(mesh);
   return mesh;
@@ -69,7 +84,7 @@ inline ContactPlane<3> commissure_plane() {
 }
 
 /// A valve in motion: what is recorded in every step.
-template <class Problem>
+template <class FluidElement, class Problem>
 class ValveHistory {
  public:
   ValveHistory(Run& run, const Problem& problem, const ValveOptions& o,
@@ -147,7 +162,7 @@ class ValveHistory {
   const Problem& problem_;
   const ValveOptions& o_;
   std::vector<std::vector<std::vector<int>>> lines_;  ///< of each leaflet
-  Section<Tet1> before_, behind_, annulus_;
+  Section<FluidElement> before_, behind_, annulus_;
   ValveCurves curves_;
   Balances<Problem> balances_;
   FsiPictures pictures_;
@@ -173,23 +188,23 @@ void check_protrusion(Run& run, const Problem& problem, double allowed) {
 }
 
 /// \tparam Formulation Displacement, or Sheet with a law of thin sheets.
-template <class SolidElement, class Formulation, class Law>
+template <class FluidElement, class SolidElement, class Formulation, class Law>
 void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& data, const Law& law) {
   using Body = SolidBody<SolidElement, Law, Formulation>;
-  using Problem = FsiProblem<Tet1, Body>;
+  using Problem = FsiProblem<FluidElement, Body>;
   const FlowCurve curve(o.curve_file(data));
   if (curve.begin() > 0.0 || curve.end() < o.time.end)
     throw Error(ExitCode::configuration, "inlet.curve covers " + std::to_string(curve.begin()) + " to " +
                                              std::to_string(curve.end()) +
                                              " s; expected 0 to time.end = " + std::to_string(o.time.end));
-  const auto mesh = distribute(vessel_mesh(run, o, data + "/geometry/vessel.geo"), run.comm());
+  const auto mesh = distribute(vessel_mesh<FluidElement>(run, o, data + "/geometry/vessel.geo"), run.comm());
   const SolidParameters<3> solid{
       .rho_s = o.rho_s, .rho_f = o.rho_f, .mu_f = o.mu, .mu_s = 0.0, .gravity = {}};
   std::vector<Body> leaflets;
   std::vector<std::vector<std::vector<int>>> lines;
   for (int k = 0; k < (o.is_sector() ? 1 : 3); ++k) {
-    auto leaflet = leaflet_mesh<SolidElement>(o.root, o.leaflet, o.spacing * o.h_valve, o.layers,
-                                              o.is_sector(), k * AorticRoot::third);
+    auto leaflet = leaflet_mesh<SolidElement>(o.root, o.leaflet, o.spacing * o.h_valve / FluidElement::order,
+                                              o.layers, o.is_sector(), k * AorticRoot::third);
     leaflets.emplace_back("leaflet " + std::to_string(k + 1), std::move(leaflet.mesh), law, solid);
     lines.push_back(std::move(leaflet.lines));
   }
@@ -200,9 +215,24 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
   if (o.fsi.seal > 0.0 && o.is_sector()) problem.add_seal_mirror(commissure_plane());
   if (o.fsi.contact_range > 0.0 && o.is_sector()) problem.add_contact_plane(commissure_plane());
   attach(run, problem);
-  ValveHistory<Problem> history(run, problem, o, std::move(lines));
+  ValveHistory<FluidElement, Problem> history(run, problem, o, std::move(lines));
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });
   history.report_all();
 }
+
+/// The valve in a fluid of these cells, its leaflets by the law of the options.
+template <class FluidElement>
+void run_semilunar_valve_in(Run& run, const ValveOptions& o, const std::string& data) {
+  const NeoHookean law(Lame::from_young(o.E, o.nu));
+  const Vec<double, 3> unused = {0.0, 0.0, 1.0};  // each point has its own directions
+  if (!o.law.is_sheet())
+    return run_semilunar_valve<FluidElement, Hex2, Fibred>(run, o, data,
+                                                           TensionFibres(law, o.fibres, unused));
+  run_semilunar_valve<FluidElement, Hex2, FibredSheet>(
+      run, o, data, TensionFibres(o.law.sheet(law, unused), o.fibres, unused));
+}
+
+extern template void run_semilunar_valve_in<Tet1>(Run&, const ValveOptions&, const std::string&);
+extern template void run_semilunar_valve_in<Tet2>(Run&, const ValveOptions&, const std::string&);
 
 }  // namespace ifsi
