@@ -105,19 +105,27 @@ void BlockIlu<D>::apply(float* b, float* x) const {
 
 template <int D>
 void RefinedIlu<D>::apply(float* b, float* x) {
-  const Layout& layout = A_.layout();
+  const std::size_t n_mine = static_cast<std::size_t>(A_.layout().n_owned()) * D;
+  correction_.resize(static_cast<std::size_t>(A_.layout().n_local()) * D);
+  std::fill_n(x, n_mine, 0.0f);
+  for (int pass = 1;; ++pass) {
+    ilu_.apply(b, correction_.data());
+    const float factor = pass < passes_ ? damping_ : 1.0f;
+    for (std::size_t e = 0; e < n_mine; ++e) x[e] += correction_[e] *= factor;
+    if (pass == passes_) return;
+    subtract_product_with(correction_.data(), b);
+  }
+}
+
+/// b -= A x on the owned rows.
+template <int D>
+void RefinedIlu<D>::subtract_product_with(float* x, float* b) const {
   const OverlapPattern& at = A_.pattern();
-  const std::size_t n_mine = static_cast<std::size_t>(layout.n_owned()) * D;
-  ilu_.apply(b, x);
-  for (std::size_t e = 0; e < n_mine; ++e) x[e] *= damping_;
-  layout.update_ghosts(x, D);
-  for (int i = 0; i < layout.n_owned(); ++i) {
+  A_.layout().update_ghosts(x, D);
+  for (int i = 0; i < A_.layout().n_owned(); ++i) {
     float* bi = b + static_cast<std::size_t>(i) * D;
     row_residual<D>(A_, at.row_ptr[i], at.row_ptr[i + 1], bi, x, bi);
   }
-  correction_.resize(static_cast<std::size_t>(layout.n_local()) * D);
-  ilu_.apply(b, correction_.data());
-  for (std::size_t e = 0; e < n_mine; ++e) x[e] += correction_[e];
 }
 
 template <int D>

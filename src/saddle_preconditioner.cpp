@@ -63,7 +63,8 @@ class SaddlePreconditioner<B>::Impl {
     std::string text = "velocity: ";
     if (const auto* amg = std::get_if<Amg>(&velocity_)) text += amg->description();
     if (std::holds_alternative<BlockIlu<dim>>(velocity_)) text += "ILU(0)";
-    if (std::holds_alternative<RefinedIlu<dim>>(velocity_)) text += "ILU(0) twice";
+    if (const auto* refined = std::get_if<RefinedIlu<dim>>(&velocity_))
+      text += "ILU(0) " + std::to_string(refined->passes()) + " times";
     if (std::holds_alternative<BlockGaussSeidel<dim>>(velocity_)) text += "Gauss-Seidel";
     text += " (viscous number " + std::to_string(viscous_number_) + "); pressure: ILU(0) of mass and PSPG";
     if (inertia_.ready()) text += ", inertia by " + inertia_.description();
@@ -75,8 +76,6 @@ class SaddlePreconditioner<B>::Impl {
   [[nodiscard]] double setup_cost() const { return std::holds_alternative<Amg>(velocity_) ? 12 : 8; }
 
  private:
-  /// From here on ILU(0) is applied twice: as fast, or faster.
-  static constexpr double refined_from = 0.3;
   /// Weight of M in M + L in steady flow, where nothing else than (M + L)^-1 is in S^-1: M + L is 1 to 1.6
   /// times S for short waves, this puts S into the middle of that.
   static constexpr double steady_mass = 0.8;
@@ -94,12 +93,12 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   void update_velocity(const BlockCsr<B>& K) {
-    if (options_.velocity == "amg" || (options_.velocity == "auto" && needs_amg(viscous_number_))) {
+    if (options_.velocity == "amg" || (options_.velocity == "auto" && needs_amg(viscous_number_, order_))) {
       velocity_.template emplace<Amg>(velocity_amg_options()).setup(extract_diagonal_part<dim>(K, 0));
     } else if (options_.velocity == "gauss_seidel") {
       velocity_.template emplace<BlockGaussSeidel<dim>>().update(K);
-    } else if (crosses_cells_ || viscous_number_ > refined_from) {
-      velocity_.template emplace<RefinedIlu<dim>>(order_ == 1 ? 1.0f : 0.7f).update(K);
+    } else if (const int passes = ilu_passes(viscous_number_, crosses_cells_); passes > 1) {
+      velocity_.template emplace<RefinedIlu<dim>>(passes, order_ == 1 ? 1.0f : 0.7f).update(K);
     } else {
       velocity_.template emplace<BlockIlu<dim>>().update(K);
     }

@@ -152,10 +152,24 @@ std::string choice(double viscosity, int order = 1) {
 
 TEST(SaddlePreconditioner, ChoosesTheVelocitySolverByTheViscousNumber) {
   EXPECT_NE(choice<3>(1e-3).find("velocity: ILU(0) (visc"), std::string::npos);
-  EXPECT_NE(choice<3>(0.5).find("velocity: ILU(0) twice"), std::string::npos);
+  EXPECT_NE(choice<3>(0.4).find("velocity: ILU(0) 2 times"), std::string::npos);
+  EXPECT_NE(choice<3>(0.7).find("velocity: ILU(0) 4 times"), std::string::npos);
   EXPECT_EQ(choice<3>(1e3).find("velocity: ILU"), std::string::npos);
   EXPECT_NE(choice<4>(1e-3).find("velocity: ILU"), std::string::npos);
   EXPECT_NE(choice<4>(1e3).find("W-cycle"), std::string::npos);
+}
+
+TEST(SaddlePreconditioner, TakesAmgEarlierInThePlaneAndWithOrderTwo) {
+  EXPECT_TRUE(SaddlePreconditioner<3>::needs_amg(1.6, 1));
+  EXPECT_FALSE(SaddlePreconditioner<4>::needs_amg(2.9, 1));
+  EXPECT_TRUE(SaddlePreconditioner<4>::needs_amg(2.1, 2));
+}
+
+TEST(SaddlePreconditioner, AppliesIluTwiceWhereTheFlowCrossesCells) {
+  EXPECT_EQ(SaddlePreconditioner<3>::ilu_passes(0.01, false), 1);
+  EXPECT_EQ(SaddlePreconditioner<3>::ilu_passes(0.01, true), 2);
+  EXPECT_EQ(SaddlePreconditioner<4>::ilu_passes(1.4, false), 2);
+  EXPECT_EQ(SaddlePreconditioner<4>::ilu_passes(1.6, true), 4);
 }
 
 TEST(SaddlePreconditioner, CoarsensByNodesForCellsOfOrderOneOnly) {

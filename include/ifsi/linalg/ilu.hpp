@@ -37,14 +37,18 @@ class BlockIlu {
   LocalBlocks<D> LU_;  ///< L strictly below the diagonal (unit diagonal), U above, inverse pivots on it
 };
 
-/// ILU(0) applied a second time to what the first time has left over. What diffuses over some cells in a time
-/// step is reached in half as many iterations; about 1.3 times the time of one with ILU(0) alone.
+/// ILU(0) applied several times, each time to what is left over. What diffuses over some cells in a time step
+/// is reached in fewer iterations: half as many with two passes, a quarter fewer again with four. An even
+/// number: after an odd one, parts with eigenvalues of (L U)^-1 A near two are left over with the sign
+/// changed.
 template <int D>
 class RefinedIlu {
  public:
-  /// The first result is multiplied by damping. With cells of order 2 (L U)^-1 A has eigenvalues beyond two,
-  /// and what they belong to would grow.
-  explicit RefinedIlu(float damping = 1) : damping_(damping) {}
+  /// All results but the last are multiplied by damping. With cells of order 2 (L U)^-1 A has eigenvalues
+  /// beyond two, and what they belong to would grow.
+  explicit RefinedIlu(int passes = 2, float damping = 1) : passes_(passes), damping_(damping) {}
+
+  [[nodiscard]] int passes() const { return passes_; }
 
   /// Collective. Throws as BlockIlu does.
   template <int B>
@@ -56,8 +60,11 @@ class RefinedIlu {
   void apply(float* b, float* x);
 
  private:
+  void subtract_product_with(float* x, float* b) const;
+
   BlockIlu<D> ilu_;
   LocalBlocks<D> A_;
+  int passes_;
   float damping_;
   AlignedVector<float> correction_;
 };

@@ -42,7 +42,7 @@ template <int B>
   return choose_method({.dim = B - 1,
                         .unknowns = K.layout().n_global() * B,
                         .ranks = K.layout().communicator().size(),
-                        .needs_amg = SaddlePreconditioner<B>::needs_amg(parts.viscous_number),
+                        .needs_amg = SaddlePreconditioner<B>::needs_amg(parts.viscous_number, parts.order),
                         .immersed = immersed});
 }
 

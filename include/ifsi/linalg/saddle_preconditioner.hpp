@@ -11,8 +11,8 @@
 namespace ifsi {
 
 struct SaddleOptions {
-  /// Approximate inverse of the velocity block: "ilu" (once, or twice where that pays), "gauss_seidel",
-  /// "amg", or "auto": ILU(0) up to a viscous number (SchurParts) between one and two, AMG beyond.
+  /// Approximate inverse of the velocity block: "ilu" (once, or several times where that pays), "gauss_seidel",
+  /// "amg", or "auto": ILU(0) up to a viscous number (SchurParts) between 1.5 and three, AMG beyond.
   std::string velocity = "auto";
   bool enclosed = false;  ///< the pressure is known up to a constant
 };
@@ -32,9 +32,14 @@ class SaddlePreconditioner {
   static constexpr int dim = B - 1;
 
   /// Whether "auto" takes AMG for the velocity: ILU(0) stays within 25 iterations, or nearly, up to this
-  /// viscous number. (AMG is slower up to 2.5 in the plane and 5 in space.)
-  [[nodiscard]] static constexpr bool needs_amg(double viscous_number) {
-    return viscous_number > (dim == 2 ? 1.5 : 2.0);
+  /// viscous number. Triangles beyond 1.5 and cells of order 2 beyond 2.4 let it diverge.
+  [[nodiscard]] static constexpr bool needs_amg(double viscous_number, int order) {
+    return viscous_number > (dim == 2 ? 1.5 : order == 1 ? 3.0 : 2.0);
+  }
+  /// How many times in a row ILU(0) is applied.
+  [[nodiscard]] static constexpr int ilu_passes(double viscous_number, bool crosses_cells) {
+    if (viscous_number > (dim == 2 ? 0.8 : 1.5)) return 4;
+    return crosses_cells || viscous_number > 0.3 ? 2 : 1;
   }
 
   /// Throws Error(configuration) for an unknown velocity solver.
