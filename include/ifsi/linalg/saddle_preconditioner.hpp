@@ -11,8 +11,9 @@
 namespace ifsi {
 
 struct SaddleOptions {
-  /// Approximate inverse of the velocity block: "ilu" (once, or several times where that pays), "gauss_seidel",
-  /// "amg", or "auto": ILU(0) up to a viscous number (SchurParts) between 1.5 and three, AMG beyond.
+  /// Approximate inverse of the velocity block: "ilu" (once, or several times where that pays),
+  /// "gauss_seidel", "amg", or "auto": ILU(0) up to a viscous number (SchurParts) between 1.5 and three, AMG
+  /// beyond.
   std::string velocity = "auto";
   bool enclosed = false;  ///< the pressure is known up to a constant
 };
