@@ -359,7 +359,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
   [[nodiscard]] int patch_layers(double dt) const {
     if (fsi_.patch_layers >= 0) return fsi_.patch_layers;
     if (Flow::dim == 3) return patch_is_dear() ? 0 : 2;
-    return std::clamp(static_cast<int>(std::lround(0.4 * diffusion_length(dt))), 2, 8);
+    return std::clamp(static_cast<int>(std::lround(0.6 * diffusion_length(dt))), 2, 8);
   }
   /// How far momentum diffuses in dt, in spacings of the fluid's nodes around the solids, the largest of all.
   [[nodiscard]] double diffusion_length(double dt) const {
