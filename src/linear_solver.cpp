@@ -119,6 +119,7 @@ class LinearSolver<B>::Impl {
     mass_per_momentum_ = mass_per_momentum(K);
     ++total_setups;
     const SchurParts parts = options_.method == "direct" ? SchurParts{} : schur_();
+    steady_ = parts.steady;
     choose(K, parts);
     if (!use_direct_) {
       saddle_.update(K, parts);
@@ -132,6 +133,19 @@ class LinearSolver<B>::Impl {
     reuse_.renewed(direct_.setup_cost());
   }
 
+  /// z = P^-1 r. In steady flow, where S^-1 is crudest, P is applied once more to what is left over: half as
+  /// many iterations for about the same time, and half as many vectors of GMRES.
+  void apply_saddle(const BlockCsr<B>& K, const double* r, double* z) {
+    saddle_.apply(r, z);
+    if (!steady_) return;
+    const std::size_t n = static_cast<std::size_t>(K.n_rows()) * B;
+    left_.resize(static_cast<std::size_t>(K.layout().n_local()) * B), correction_.resize(left_.size());
+    linear_map(K)(z, left_.data());
+    for (std::size_t k = 0; k < n; ++k) left_[k] = r[k] - left_[k];
+    saddle_.apply(left_.data(), correction_.data());
+    for (std::size_t k = 0; k < n; ++k) z[k] += correction_[k];
+  }
+
   SolverReport run(const BlockCsr<B>& K, double* x, const SolveTarget& target, bool fresh) {
     const Layout& layout = K.layout();
     const LinearMap preconditioner = [&](double* r, double* z) {
@@ -139,7 +153,7 @@ class LinearSolver<B>::Impl {
       if (use_direct_)
         direct_.apply(r, z);
       else
-        saddle_.apply(r, z);
+        apply_saddle(K, r, z);
       if (options_.enclosed) project_pressure<B>(layout, z);
     };
     GmresOptions gmres;
@@ -161,12 +175,12 @@ class LinearSolver<B>::Impl {
   LinearSolverOptions options_;
   SchurProvider schur_;
   std::string choice_, reason_ = "as asked for";
-  bool use_direct_ = true;
+  bool use_direct_ = true, steady_ = false;
   DirectSolver direct_;
   SaddlePreconditioner<B> saddle_;
   ReusePolicy reuse_;
   double mass_per_momentum_ = 1;
-  std::vector<double> rhs_, start_;
+  std::vector<double> rhs_, start_, left_, correction_;
   GmresWorkspace workspace_;
 };
 

@@ -76,19 +76,16 @@ class SaddlePreconditioner<B>::Impl {
   [[nodiscard]] double setup_cost() const { return std::holds_alternative<Amg>(velocity_) ? 12 : 8; }
 
  private:
-  /// Weight of M in M + L in steady flow, where nothing else than (M + L)^-1 is in S^-1: M + L is 1 to 1.6
-  /// times S for short waves, this puts S into the middle of that.
-  static constexpr double steady_mass = 0.8;
   static AmgOptions amg_options() { return {.strong_threshold = dim == 2 ? 0.25 : 0.5}; }
   /// Aggressive coarsening doubles the iterations where grad-div couples the components. One V-cycle
-  /// is what would limit the iterations: in the plane a second one pays, in space a W-cycle. Coarsening by
-  /// nodes saves a quarter of the time with multilinear cells; the nodes of a cell of order 2 differ too
-  /// much: quad2, Re 1, steady takes 27 iterations with it and 16 without.
+  /// is what would limit the iterations: in the plane a second one pays, in space with time steps a W-cycle.
+  /// Coarsening by nodes saves a quarter of the time with multilinear cells; the nodes of a cell of order 2
+  /// differ too much: quad2, Re 1, steady takes 27 iterations with it and 16 without.
   [[nodiscard]] AmgOptions velocity_amg_options() const {
     return {.strong_threshold = dim == 2 ? 0.25 : 0.5,
             .aggressive_levels = 0,
             .cycles = dim == 2 ? 2 : 1,
-            .w_cycle = dim == 3,
+            .w_cycle = dim == 3 && !steady_,
             .nodal = order_ == 1};
   }
 
@@ -141,9 +138,7 @@ class SaddlePreconditioner<B>::Impl {
       const int diagonal = K.find(i, i);
       local_factor_[i] = std::max(0.0, 1 - *local.at(diagonal) / *parts.laplacian.at(diagonal));
     }
-    const double mass_factor = steady_ ? steady_mass : 1;
-    for (std::size_t k = 0; k < local.values.size(); ++k)
-      local.values[k] += mass_factor * parts.mass.values[k];
+    for (std::size_t k = 0; k < local.values.size(); ++k) local.values[k] += parts.mass.values[k];
     local_part_.update(local);
   }
 
