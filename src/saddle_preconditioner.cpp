@@ -30,7 +30,7 @@ class SaddlePreconditioner<B>::Impl {
       throw Error(ExitCode::linear_solver,
                   "preconditioner: the Schur parts do not have the pattern of the matrix");
     pattern_ = K.shared_pattern();
-    viscous_number_ = parts.viscous_number;
+    viscous_number_ = parts.viscous_number, bulk_number_ = parts.bulk_number;
     order_ = parts.order;
     steady_ = parts.steady;
     convection_ = parts.convection;
@@ -90,7 +90,8 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   void update_velocity(const BlockCsr<B>& K) {
-    if (options_.velocity == "amg" || (options_.velocity == "auto" && needs_amg(viscous_number_, order_))) {
+    if (options_.velocity == "amg" ||
+        (options_.velocity == "auto" && needs_amg(viscous_number_, order_, bulk_number_))) {
       velocity_.template emplace<Amg>(velocity_amg_options()).setup(extract_diagonal_part<dim>(K, 0));
     } else if (options_.velocity == "gauss_seidel") {
       velocity_.template emplace<BlockGaussSeidel<dim>>().update(K);
@@ -234,7 +235,7 @@ class SaddlePreconditioner<B>::Impl {
 
   SaddleOptions options_;
   std::shared_ptr<const Pattern> pattern_;
-  double viscous_number_ = 0;
+  double viscous_number_ = 0, bulk_number_ = 0;
   std::variant<BlockIlu<dim>, RefinedIlu<dim>, BlockGaussSeidel<dim>, Amg> velocity_;
   AlignedVector<float> gradient_;  ///< G: dim numbers per block of the pattern
   int order_ = 1;

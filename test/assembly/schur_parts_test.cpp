@@ -88,6 +88,13 @@ TYPED_TEST(SchurPartsOf, SteadyFlowHasNoViscousLimit) {
   EXPECT_NEAR(energy, flow.area / flow.fluid.rho, 1e-12);
 }
 
+TEST(SchurParts, TheBulkNumberIsThatOfGradDiv) {
+  const double c = 5.0, h = 0.25;
+  const UniformFlow<Quad1> flow({1.0, 0.0}, c);
+  const double rho_tau_C = flow.m({1.0, 0.0}) - 2.0 * 0.2;
+  EXPECT_NEAR(flow.parts.bulk_number, rho_tau_C / (flow.fluid.rho * c * h * h), 1e-12);
+}
+
 TEST(SchurParts, TheViscousNumberIsStricterForOrderTwo) {
   const double nu = 0.2 / 3.0, c = 5.0, h = 0.25;
   EXPECT_NEAR(UniformFlow<Quad1>({1.0, 0.0}, c).parts.viscous_number, nu / (c * h * h), 1e-12);

@@ -29,6 +29,18 @@ TEST(ReusePolicy, RenewsWhenTheSurplusHasPaidForARenewal) {
   EXPECT_FALSE(policy.due());
 }
 
+TEST(ReusePolicy, OneLongSolveIsEnoughUnlessAFreshSetUpTakesAsLong) {
+  const auto due_after = [](int fresh, int kept) {
+    ReusePolicy policy;
+    policy.renewed(100);
+    policy.record(fresh, 6), policy.record(kept, 6);
+    return policy.due();
+  };
+  EXPECT_FALSE(due_after(15, 25));
+  EXPECT_TRUE(due_after(15, 26));
+  EXPECT_FALSE(due_after(24, 29));
+}
+
 TEST(ReusePolicy, ATighterSolveIsNoSurplus) {
   ReusePolicy policy;
   policy.renewed(1);

@@ -163,6 +163,8 @@ TEST(SaddlePreconditioner, TakesAmgEarlierInThePlaneAndWithOrderTwo) {
   EXPECT_TRUE(SaddlePreconditioner<3>::needs_amg(1.6, 1));
   EXPECT_FALSE(SaddlePreconditioner<4>::needs_amg(2.9, 1));
   EXPECT_TRUE(SaddlePreconditioner<4>::needs_amg(2.1, 2));
+  EXPECT_TRUE(SaddlePreconditioner<3>::needs_amg(0.01, 1, 50.0));
+  EXPECT_FALSE(SaddlePreconditioner<3>::needs_amg(0.01, 1, 2.0));
 }
 
 TEST(SaddlePreconditioner, AppliesIluTwiceWhereTheFlowCrossesCells) {

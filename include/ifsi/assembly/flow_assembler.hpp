@@ -215,6 +215,7 @@ SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFie
                    .laplacian = BlockCsr<1>(pattern_),
                    .convection = BlockCsr<1>(pattern_),
                    .viscous_number = 0.0,
+                   .bulk_number = 0.0,
                    .order = Element::order,
                    .steady = steady};
   for_each_batch(fields, fluid, [&](const Kernel& kernel, const Batch& batch) {
@@ -235,14 +236,17 @@ SchurParts FlowAssembler<Element, Model, Rule, lanes>::schur_parts(const FlowFie
         }
       }
       const T trace_G = fluid.rho / (point.rho_tau_C() * point.tau_M());  // 4 dim / h^2 (eq. 5, 6)
-      for (int l = 0; l < batch.n_cells; ++l)
-        parts.viscous_number =
-            std::max(parts.viscous_number, point.mu()[l] * trace_G[l] * inverse_rho_c / (4.0 * dim));
+      const T per_h2 = inverse_rho_c / (4.0 * dim) * trace_G;
+      for (int l = 0; l < batch.n_cells; ++l) {
+        parts.viscous_number = std::max(parts.viscous_number, point.mu()[l] * per_h2[l]);
+        parts.bulk_number = std::max(parts.bulk_number, point.rho_tau_C()[l] * per_h2[l]);
+      }
     }
   });
   // h is the distance of nodes; for order 2 half of it, since ILU(0) fails there at a quarter of the number.
   constexpr int cells_per_h2 = Element::order == 1 ? 1 : 16;
   parts.viscous_number = cells_per_h2 * mesh_.comm.max(parts.viscous_number);
+  parts.bulk_number = mesh_.comm.max(parts.bulk_number);
   if (steady) parts.viscous_number = std::numeric_limits<double>::infinity();
   return parts;
 }

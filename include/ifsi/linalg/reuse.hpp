@@ -9,10 +9,13 @@ namespace ifsi {
 /// Keeps a set-up while it pays. Costs are counted in iterations of the solver that uses it. The first solve
 /// after a renewal shows how many iterations a decade of residual takes when all is fresh; what later solves
 /// need beyond that is the price of staleness. A renewal is due once that price adds up to the cost of one:
-/// never more than twice what the best plan in hindsight would have paid. Iteration counts decide, not
-/// clocks, so that runs repeat.
+/// never more than twice what the best plan in hindsight would have paid. It is due at once after a solve of
+/// more than `most` iterations of which a quarter is owed to staleness. Iteration counts decide, not clocks,
+/// so that runs repeat.
 class ReusePolicy {
  public:
+  static constexpr int most = 25;  ///< iterations that a kept set-up should not take
+
   /// A new set-up that cost as much as `setup_cost` iterations.
   void renewed(double setup_cost) {
     setup_cost_ = setup_cost;
@@ -24,7 +27,7 @@ class ReusePolicy {
   void record(int iterations, double decades) {
     if (rate_ == 0 && decades > 0) rate_ = iterations / decades;
     surplus_ += std::max(0.0, iterations - expected(decades));
-    due_ = due_ || surplus_ > setup_cost_;
+    due_ = due_ || surplus_ > setup_cost_ || (iterations > most && iterations > 1.25 * expected(decades));
   }
   /// Says from outside that the set-up fits no longer (another time step, a failed solve).
   void invalidate() { due_ = true; }

@@ -22,6 +22,9 @@ struct SchurParts {
   /// Max over the cells of mu / (rho c h^2): how far the velocity block is from a mass matrix. h is the
   /// distance of neighbouring nodes, half of it in cells of order 2. Infinite in steady flow.
   double viscous_number = 0;
+  /// Max over the cells of rho tau_C / (rho c h^2) = 1 / (4 dim c tau_M), h the edge of a cell: the same for
+  /// the grad-div term, which s raises around solids (eq. 4, 5).
+  double bulk_number = 0;
   int order = 1;        ///< of the shape functions
   bool steady = false;  ///< no inertia: N^-1 alone is not part of S^-1
 };
