@@ -32,7 +32,7 @@ struct RingPressure {
 int main(int argc, char** argv) {
   return run_case(
       argc, argv, {"annulus", "a prestressed ring at rest: exact pressure, orders in h"}, [](Run& run) {
-        int n = 32, levels = 4, around = 112;
+        int n = 32, levels = 4, around = 224;
         std::string sweep = "none";
         TimeOptions time;
         FlowOptions flow;
