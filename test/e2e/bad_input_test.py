@@ -111,6 +111,13 @@ class BadInput(unittest.TestCase):
         self.assert_refused(run("turek_hron", *settings(solid__nu=0.5)), CONFIGURATION, "solid.nu = 0.5 is out of range",
                             "0.4999")
 
+    def test_a_thick_solid_finer_than_the_fluid(self):
+        def notes(n):
+            outcome = run("annulus", *settings(sweep="none", mesh__n=n, time__end=1e-3, solid__around=28))
+            return [line for line in outcome.output.splitlines() if line.startswith("note:")]
+        self.assertEqual(notes(16), [])  # one fluid cell thick
+        self.assertIn("solid nodes per fluid node", notes(48)[0])
+
     def test_newton_that_gives_up(self):
         outcome = run("taylor_green", *settings(mesh__n=4, newton__max_iterations=1, newton__rtol=1e-14,
                                                 time__dt_min_factor=0.5))

@@ -141,6 +141,29 @@ class FsiPictures {
   return text;
 }
 
+/// What to tell a user about thick bodies of more nodes than the fluid has in them: empty for bodies thinner
+/// than two cells, which take part of the fluid's place in any case, and for those with no more nodes. \param
+/// thickness of the bodies in fluid spacings; \param nodes their number per fluid node
+[[nodiscard]] inline std::string fine_solid_note(double thickness, double nodes) {
+  if (thickness < 2.0 || nodes < 1.1) return {};
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "note: %.2g solid nodes per fluid node in bodies %.2g fluid spacings thick: fluid cells that "
+                "their surface "
+                "enters are held whole; where small forces matter take one solid node per fluid node",
+                nodes, thickness);
+  return text;
+}
+template <class Element, class Body, class Model>
+[[nodiscard]] std::string fine_solid_note(const FsiProblem<Element, Body, Model>& problem) {
+  if (Body::Coordinates::axisymmetric) return {};
+  const auto& solids = problem.solids();
+  const double h = problem.fluid_spacing(), volume = solids.totals().reference_volume;
+  double nodes = solids.n_nodes(), surface = 0.0;
+  for (const auto& point : solids.surface_points()) nodes -= 0.5, surface += point.area;
+  return fine_solid_note(2.0 * volume / (surface * h), nodes * std::pow(h, Body::dim) / volume);
+}
+
 /// As for any flow; also says which nodes are held outside of the fluid, and when a solid is too coarse.
 template <class Element, class Body, class Model>
 void attach(Run& run, FsiProblem<Element, Body, Model>& problem) {
@@ -150,8 +173,8 @@ void attach(Run& run, FsiProblem<Element, Body, Model>& problem) {
     run.log(std::to_string(n) + " solid nodes lie outside of the fluid mesh and are held at their place");
   if (const auto& contact = problem.solids().contact())
     run.log("contact: surfaces repel from a distance of " + std::to_string(contact->range()) + " on");
-  if (const std::string warning = coarse_solid_warning(problem.ratio().ratio); !warning.empty())
-    run.log(warning);
+  for (const std::string& remark : {coarse_solid_warning(problem.ratio().ratio), fine_solid_note(problem)})
+    if (!remark.empty()) run.log(remark);
 }
 
 /// The node of a body nearest to a position.

@@ -142,6 +142,22 @@ class FsiProblem : public FlowProblem<Element, Model> {
     }
     return worst;
   }
+  /// Distance of the fluid's nodes where the surfaces are, in the mean.
+  [[nodiscard]] double fluid_spacing() const {
+    double sum = 0.0;
+    int n = 0;
+    for (const auto& point : solids_.surface_points()) {
+      if (!C_.row(point.node).found()) continue;
+      double squares = 0.0;
+      for (int i = 0; i < Flow::dim; ++i) {
+        auto e = Point::zero();
+        e[i] = 1.0;
+        squares += std::pow(length_in_cells(C_.row(point.node), e), 2);
+      }
+      sum += std::sqrt(Flow::dim / squares), ++n;
+    }
+    return sum / std::max(n, 1);
+  }
   /// What is known to go wrong with the chosen scheme; empty when nothing is.
   [[nodiscard]] std::string advice() const {
     if (fsi_.treatment != "frozen" || fsi_.rho_inf_solid <= 0.2) return {};
@@ -315,23 +331,6 @@ class FsiProblem : public FlowProblem<Element, Model> {
                                                ", expected 0 for bodies of revolution: they have no contact");
     solids_.set_contact(fsi_.contact_range * fluid_spacing(), fsi_.contact_pressure);
   }
-  /// Distance of the fluid's nodes where the surfaces are, in the mean.
-  [[nodiscard]] double fluid_spacing() const {
-    double sum = 0.0;
-    int n = 0;
-    for (const auto& point : solids_.surface_points()) {
-      if (!C_.row(point.node).found()) continue;
-      double squares = 0.0;
-      for (int i = 0; i < Flow::dim; ++i) {
-        auto e = Point::zero();
-        e[i] = 1.0;
-        squares += std::pow(length_in_cells(C_.row(point.node), e), 2);
-      }
-      sum += std::sqrt(Flow::dim / squares), ++n;
-    }
-    return sum / std::max(n, 1);
-  }
-
   /// How far nodes ended from their predicted places; too far is no step.
   void check_change(StepReport& report, double dt) const {
     const auto from = solids_.predicted(dt), to = solids_.new_positions();
