@@ -71,7 +71,8 @@ TEST(StepRecords, WarnOfWhatWasSeenToBeWrong) {
     return warnings.size() == 1 ? warnings.front() : "none, or several";
   };
   EXPECT_NE(only({.steps = 50, .rejected = 0, .largest_change = 0.7}).find("0.7"), std::string::npos);
-  EXPECT_EQ(only({.steps = 54, .rejected = 1, .largest_change = 0.2}).find("1 steps were rejected"), 0u);
+  EXPECT_EQ(only({.steps = 54, .rejected = 1, .largest_change = 0.2}).find("steps rejected: 1, accepted: 54"),
+            0u);
   EXPECT_EQ(only({.steps = 10, .rejected = 0, .largest_change = 0.1}).find("only 10"), 0u);
 }
 

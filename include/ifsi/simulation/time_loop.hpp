@@ -97,9 +97,9 @@ struct StepRecord {
                        " of the tolerated distance from their prediction; take a smaller time.dt or "
                        "time.adaptive=true");
   if (100 * record.rejected > record.steps && record.largest_change > 0.0)
-    warnings.push_back(
-        std::to_string(record.rejected) + " steps were rejected beside " + std::to_string(record.steps) +
-        " accepted ones; take a smaller time.dt or, for stiff solids, coupling.treatment=exact");
+    warnings.push_back("steps rejected: " + std::to_string(record.rejected) +
+                       ", accepted: " + std::to_string(record.steps) +
+                       "; take a smaller time.dt or, for stiff solids, coupling.treatment=exact");
   if (record.from_start && record.steps < 20 && record.largest_change > 0.0)
     warnings.push_back("only " + std::to_string(record.steps) +
                        " time steps: those after a start or a sudden load are of first order in time.dt");
