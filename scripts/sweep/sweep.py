@@ -58,7 +58,7 @@ class Runner:
 
     def run(self, case, settings):
         folder = self.folder(case, settings)
-        log = folder / "log.txt"
+        log = folder / "console.txt"  # the program keeps a log.txt of its own there
         if not (folder / "exit").exists():
             folder.mkdir(parents=True, exist_ok=True)
             command = [self.build / "drivers" / case, "--config", ROOT / "data" / "cases" / f"{case}.toml", "--out", folder]
@@ -70,7 +70,7 @@ class Runner:
             (folder / "exit").write_text(str(code))
         code = int((folder / "exit").read_text())
         lines = log.read_text().splitlines()
-        result = {"exit": code, "cuts": sum("rejected" in line for line in lines),
+        result = {"exit": code, "cuts": sum(line.startswith("step to t") for line in lines),
                   "warning": next((line for line in lines if line.startswith("warning")), ""), "metrics": {}}
         summary = folder / "summary.json"
         if code in (0, 7) and summary.exists():

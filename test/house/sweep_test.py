@@ -15,7 +15,7 @@ while [ $# -gt 0 ]; do
   case $1 in --out) out=$2;; time.dt=*) dt=${1#*=};; loud=true) echo 'warning: coarse';; esac; shift
 done
 echo call >> "$(dirname "$0")/calls"
-case $dt in 5*) echo "step to t = 1 rejected"; echo "Newton fails"; exit 4;; esac
+case $dt in 5*) echo "step to t = 1 rejected"; echo "Newton fails"; echo "step to t = 1 rejected" >> "$out/log.txt"; exit 4;; esac
 echo "{\\"steps\\": 3, \\"metrics\\": {\\"x\\": $(echo "1 $dt" | awk '{print $1 + 10 * $2}')}}" > "$out/summary.json"
 """
 SWEEP = """# Test
