@@ -149,8 +149,8 @@ class FsiPictures {
   char text[240];
   std::snprintf(text, sizeof text,
                 "note: %.2g solid nodes per fluid node in bodies %.2g fluid spacings thick: fluid cells that "
-                "their surface "
-                "enters are held whole; where small forces matter take one solid node per fluid node",
+                "their surface enters are held whole; where small forces matter take one solid node per "
+                "fluid node",
                 nodes, thickness);
   return text;
 }

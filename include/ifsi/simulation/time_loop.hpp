@@ -87,7 +87,7 @@ struct StepRecord {
 };
 
 /// Warnings of errors in time of more than 5 %, as they were seen (docs/stability.md) with changes of more
-/// than 0.6, with one step in fifty rejected (stiff solids, C frozen), and in runs of a few steps from an
+/// than 0.6, with one step in a hundred rejected (stiff solids, C frozen), and in runs of a few steps from an
 /// impulsive start.
 [[nodiscard]] inline std::vector<std::string> warnings_of(const StepRecord& record) {
   std::vector<std::string> warnings;
