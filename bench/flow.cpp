@@ -90,15 +90,18 @@ void pareto(Run& run, const std::string& method, int largest) {
 }
 
 template <class Element>
-void growth(Run& run, const std::vector<int>& sizes, const std::string& method) {
+void growth(Run& run, const std::vector<double>& sizes, const std::string& method) {
   CsvFile csv = run.csv(std::string("growth_") + Element::name + ".csv",
                         {{"unknowns", "-"}, {"us_per_unknown_step", "us"}, {"v_rel", "-"}});
-  for (int n : sizes) {
+  for (double size : sizes) {
+    const int n = static_cast<int>(size);
     const double dt = 0.4 / n, steps = 10;
+    const long gmres_before = run.totals.gmres;
     const Row r = vortex<Element>(run, n, dt, steps * dt, method);
     csv.row({r.unknowns, r.us(), r.error});
     run.log(std::string(Element::name) + "  " + std::to_string(std::lround(r.unknowns)) +
-            " unknowns: " + std::to_string(r.us()) + " us per unknown and step");
+            " unknowns: " + std::to_string(r.us()) + " us per unknown and step, " +
+            std::to_string(run.totals.gmres - gmres_before) + " GMRES iterations");
     run.metric(std::string("growth_") + Element::name + "_" + std::to_string(n), r.us(), "us");
   }
 }
@@ -133,17 +136,18 @@ int main(int argc, char** argv) {
   return run_case(argc, argv, {"bench_flow", "speed against error of the flow solver"}, [](Run& run) {
     std::string part = "all", method = "auto";
     int largest = 64;
-    bool full = false;
+    std::vector<double> plane{57, 182, 577}, space{13, 28, 62};
     run.params.add_choice("part", part, {"all", "pareto", "growth", "cylinder"}, "what to measure");
     run.params.add_choice("linear.method", method, {"auto", "direct", "gmres"}, "linear solver");
     run.params.add("largest", largest, "-", "cells per side of the finest mesh of the Pareto plot",
                    {16, 512});
-    run.params.add("full", full, "-", "growth up to a million unknowns");
+    run.params.add("plane", plane, "-", "growth in the plane: cells per side; may be empty");
+    run.params.add("space", space, "-", "growth in space");
     run.parse();
     if (part == "all" || part == "pareto") pareto(run, method, largest);
     if (part == "all" || part == "cylinder") cylinder(run);
     if (part != "all" && part != "growth") return;
-    growth<Quad1>(run, full ? std::vector{57, 182, 577} : std::vector{57, 182}, method);
-    growth<Hex1>(run, full ? std::vector{13, 28, 62} : std::vector{13, 28}, method);
+    growth<Quad1>(run, plane, method);
+    growth<Hex1>(run, space, method);
   });
 }
