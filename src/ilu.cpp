@@ -33,6 +33,16 @@ void multiply(const float* A, const float* x, float* y) {
   }
 }
 
+/// B = A B for blocks.
+template <int D>
+void multiply_from_left(const float* A, float* B) {
+  float product[D * D] = {};
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c < D; ++c)
+      for (int k = 0; k < D; ++k) product[r * D + c] += A[r * D + k] * B[k * D + c];
+  std::copy_n(product, D * D, B);
+}
+
 /// C -= A B for blocks.
 template <int D>
 void subtract_product(const float* A, const float* B, float* C) {
@@ -52,19 +62,21 @@ void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, c
     const int k = backward ? begin + end - 1 - m : m;
     row.add(A.at(k), x + static_cast<std::size_t>(cols[k]) * D);
   }
-  float sum[D];
-  row.store(sum);
-  for (int r = 0; r < D; ++r) y[r] = b[r] - sum[r];
+  row.store_difference(b, y);
 }
 
 }  // namespace
 
 template <int D>
 void BlockIlu<D>::factor() {
+  const OverlapPattern& at = LU_.pattern();
   std::vector<int> position(LU_.n_rows(), -1);
   for (int i = 0; i < LU_.n_rows(); ++i) {
     eliminate_row(i, position);
-    invert<D>(LU_.at(LU_.pattern().diagonal[i]), i);
+    float* pivot = LU_.at(at.diagonal[i]);
+    invert<D>(pivot, i);
+    for (int k = at.row_ptr[i]; k < at.row_ptr[i + 1]; ++k)
+      if (k != at.diagonal[i]) multiply_from_left<D>(pivot, LU_.at(k));
   }
 }
 
@@ -76,14 +88,8 @@ void BlockIlu<D>::eliminate_row(int i, std::vector<int>& position) {
   for (int k = row_ptr[i]; k < row_ptr[i + 1]; ++k) position[cols[k]] = k;
   for (int k = row_ptr[i]; k < diagonal[i]; ++k) {
     const int j = cols[k];
-    float L[D * D] = {}, *A = LU_.at(k);
-    const float* pivot = LU_.at(diagonal[j]);
-    for (int r = 0; r < D; ++r)
-      for (int c = 0; c < D; ++c)
-        for (int e = 0; e < D; ++e) L[r * D + c] += A[r * D + e] * pivot[e * D + c];
-    std::copy_n(L, D * D, A);
     for (int u = diagonal[j] + 1; u < row_ptr[j + 1]; ++u)
-      if (const int to = position[cols[u]]; to >= 0) subtract_product<D>(L, LU_.at(u), LU_.at(to));
+      if (const int to = position[cols[u]]; to >= 0) subtract_product<D>(LU_.at(k), LU_.at(u), LU_.at(to));
   }
   for (int k = row_ptr[i]; k < row_ptr[i + 1]; ++k) position[cols[k]] = -1;
 }
@@ -92,14 +98,14 @@ template <int D>
 void BlockIlu<D>::apply(float* b, float* x) const {
   LU_.layout().update_ghosts(b, D);
   const OverlapPattern& at = LU_.pattern();
-  for (int i = 0; i < LU_.n_rows(); ++i)
-    row_residual<D>(LU_, at.row_ptr[i], at.diagonal[i], b + static_cast<std::size_t>(i) * D, x,
-                    x + static_cast<std::size_t>(i) * D);
-  float rest[D];
+  float scaled[D];
+  for (int i = 0; i < LU_.n_rows(); ++i) {
+    multiply<D>(LU_.at(at.diagonal[i]), b + static_cast<std::size_t>(i) * D, scaled);
+    row_residual<D>(LU_, at.row_ptr[i], at.diagonal[i], scaled, x, x + static_cast<std::size_t>(i) * D);
+  }
   for (int i = LU_.n_rows() - 1; i >= 0; --i) {
     float* xi = x + static_cast<std::size_t>(i) * D;
-    row_residual<D, true>(LU_, at.diagonal[i] + 1, at.row_ptr[i + 1], xi, x, rest);
-    multiply<D>(LU_.at(at.diagonal[i]), rest, xi);
+    row_residual<D, true>(LU_, at.diagonal[i] + 1, at.row_ptr[i + 1], xi, x, xi);
   }
 }
 

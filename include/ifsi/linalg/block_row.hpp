@@ -36,6 +36,22 @@ class BlockRow {
       for (int c = 1; c < B; ++c) y[r] += entries[r * B + c];
     }
   }
+  /// y = b - the row's sum; b and y may be the same. Two numbers go to memory as one, as they are read by
+  /// add(): a row that needs them right away would have to wait until both have arrived.
+  void store_difference(const T* b, T* y) const {
+    if constexpr (B == 2) {
+      typedef T Pair __attribute__((vector_size(2 * sizeof(T))));
+      Pair result;
+      std::memcpy(&result, b, sizeof result);
+      result -=
+          __builtin_shufflevector(sum_[0], sum_[0], 0, 2) + __builtin_shufflevector(sum_[0], sum_[0], 1, 3);
+      std::memcpy(y, &result, sizeof result);
+    } else {
+      T sum[B];
+      store(sum);
+      for (int r = 0; r < B; ++r) y[r] = b[r] - sum[r];
+    }
+  }
 
  private:
   static_assert(B >= 2 && B <= 4);
@@ -59,6 +75,7 @@ class BlockRow<T, 1> {
  public:
   void add(const T* K, const T* x) { sum_ += *K * *x; }
   void store(T* y) const { *y = sum_; }
+  void store_difference(const T* b, T* y) const { *y = *b - sum_; }
 
  private:
   T sum_ = 0;

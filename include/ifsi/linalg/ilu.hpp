@@ -34,7 +34,9 @@ class BlockIlu {
   void factor();
   void eliminate_row(int i, std::vector<int>& position);
 
-  LocalBlocks<D> LU_;  ///< L strictly below the diagonal (unit diagonal), U above, inverse pivots on it
+  /// The inverse of the pivot D_i on the diagonal; beside it the row of L and U, each multiplied by it from
+  /// the left, so that neither sweep has to wait for a product with the pivot: (L + D) D^-1 (D + U).
+  LocalBlocks<D> LU_;
 };
 
 /// ILU(0) applied several times, each time to what is left over. What diffuses over some cells in a time step
