@@ -58,6 +58,24 @@ TEST(FlowProblem, PoiseuilleIsExactOnQuadraticCells) {
   expect_poiseuille(poiseuille(triangles, "direct"));
 }
 
+// A start a hundred thousand times too fast: what is small beside its terms is not small beside the
+// solution's.
+TEST(FlowProblem, ConvergesByTheTermsOfTheSolution) {
+  const auto mesh = distribute(box<Quad1>({0.0, 0.0}, {1.0, 1.0}, {6, 6}), Communicator());
+  FlowBoundary<2> boundary;
+  for (const char* side : {"left", "bottom", "top"}) boundary.no_slip(side);
+  boundary.traction("right", [](const auto&, double) { return Vec<double, 2>{0.0, 1.0}; });
+  FlowOptions options;
+  options.linear.method = "gmres";
+  FlowProblem<Quad1> flow(mesh, boundary, 1.0, Newtonian{1e6}, options);
+  flow.start(0.0, [](const auto& x) { return 0.1 * Vec<double, 2>{std::sin(5 * x[1]), std::cos(7 * x[0])}; });
+  EXPECT_TRUE(flow.solve_steady().converged);
+  flow.assemble_tangent();
+  const BlockNorms r = flow.relative_residual();
+  EXPECT_LE(r.momentum, 2 * options.newton.rtol);
+  EXPECT_LE(r.mass, 2 * options.newton.rtol);
+}
+
 template <class Element>
 std::vector<double> vortex(const Mesh<Element>& mesh, double rho_inf, double dt, int steps) {
   const TaylorGreen exact{0.05};

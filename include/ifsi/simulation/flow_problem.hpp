@@ -159,13 +159,16 @@ class FlowProblem {
   // NonlinearSystem
   void assemble_residual() { assemble(nullptr); }
   void assemble_tangent() {
+    terms_known_ = false;
     assemble(&K_);
     system_.constraints().eliminate(K_);
   }
   BlockNorms relative_residual() {
-    const BlockNorms r = block_norms<B>(mesh().nodes, R_), size = absolute_product_norms<B>(K_, state_.u);
+    const BlockNorms r = block_norms<B>(mesh().nodes, R_);
+    if (!terms_known_) terms_ = absolute_product_norms<B>(K_, state_.u);
+    terms_known_ = true;
     const auto ratio = [](double a, double b) { return a == 0.0 ? 0.0 : a / std::max(b, 1e-300); };
-    return {ratio(r.momentum, size.momentum), ratio(r.mass, size.mass)};
+    return {ratio(r.momentum, terms_.momentum), ratio(r.mass, terms_.mass)};
   }
   SolverReport solve(BlockNorms target) {
     for (std::size_t i = 0; i < R_.size(); ++i) update_[i] = 0.0, R_[i] = -R_[i];
@@ -177,6 +180,7 @@ class FlowProblem {
   void apply_update(double factor) {
     for (std::size_t i = 0; i < update_.size(); ++i) state_.u[i] += factor * update_[i];
     state_.update_rate();
+    terms_known_ = terms_known_ && small_update(factor);
   }
 
  protected:
@@ -205,6 +209,16 @@ class FlowProblem {
     const NewtonReport report = newton(*this, options_.newton, watch_);
     if (report.converged) close_step();
     return report;
+  }
+
+  /// Whether what was added last leaves the sizes of the terms (and so the pass over K that finds them)
+  /// alone.
+  [[nodiscard]] bool small_update(double factor) const {
+    const BlockNorms added = block_norms<B>(mesh().nodes, update_),
+                     u = block_norms<B>(mesh().nodes, state_.u);
+    constexpr double small = 0.1;
+    return std::abs(factor) * added.momentum <= small * u.momentum &&
+           std::abs(factor) * added.mass <= small * u.mass;
   }
 
   [[nodiscard]] FlowTotals<dim> totals(std::span<const double> u) const {
@@ -261,6 +275,8 @@ class FlowProblem {
   std::vector<double> fraction_;  ///< part of each cell that is fluid, with rigid bodies; empty without
   std::vector<double> volumes_;   ///< of owned nodes, in an enclosed flow
   LinearSolver<B> solver_;
+  BlockNorms terms_;          ///< sizes of the terms that cancel in the residual
+  bool terms_known_ = false;  ///< for the present tangent and state
   std::function<void(const NewtonReport&)> watch_;
   double c_inertia_of_setup_ = -1.0;
   bool inertia_ = true, smooth_start_ = false;
