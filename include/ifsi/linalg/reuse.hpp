@@ -10,7 +10,7 @@ namespace ifsi {
 /// after a renewal shows how many iterations a decade of residual takes when all is fresh; what later solves
 /// need beyond that is the price of staleness. A renewal is due once that price adds up to the cost of one:
 /// never more than twice what the best plan in hindsight would have paid. It is due at once after a solve of
-/// more than `most` iterations of which a quarter is owed to staleness. Iteration counts decide, not clocks,
+/// more than `most` iterations of which a fifth is owed to staleness. Iteration counts decide, not clocks,
 /// so that runs repeat.
 class ReusePolicy {
  public:
