@@ -40,7 +40,7 @@ CircumferentialFibre make() {
 }
 template <>
 TensionFibres<NeoHookean> make() {
-  return {NeoHookean(Lame{1.3, 2.1}), 1.7, {0.6, 0.8, 0.0}};
+  return {NeoHookean(Lame{1.3, 2.1}), 1.7, {0.6, 0.8, 0.0}, 20.0};
 }
 
 template <>

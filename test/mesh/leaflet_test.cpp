@@ -109,12 +109,28 @@ TEST(LeafletMesh, OthersAreTheFirstTurned) {
   }
 }
 
+// A parabola between its two tangents, as fast where it ends as where it starts.
+TEST(LeafletSurface, TurnsUpTowardsTheFreeEdge) {
+  const LeafletSurface surface(AorticRoot{}, {});
+  const auto edge = surface.at(0.0, 1.0), wall = surface.at(0.0, 0.0);
+  constexpr double d = 1e-6;
+  const auto end = (1.0 / d) * (edge - surface.at(0.0, 1.0 - d)),
+             start = (1.0 / d) * (surface.at(0.0, d) - wall);
+  EXPECT_NEAR(end[0], 0.0, 1e-5);  // straight up
+  const double turn_at = wall[2] + start[2] / start[0] * (edge[0] - wall[0]);
+  EXPECT_NEAR(edge[2] - turn_at, Leaflet{}.coaptation, 1e-5);
+  EXPECT_NEAR(std::sqrt(dot(start, start)), end[2], 1e-5);
+  const auto commissural_edge = surface.at(1.0, 0.5);
+  EXPECT_NEAR(std::hypot(commissural_edge[0], commissural_edge[1]), std::hypot(wall[0], wall[1]), 1e-12);
+}
+
 TEST(LeafletMesh, RefusesWhatIsNoLeaflet) {
   const AorticRoot root;
   EXPECT_THROW(LeafletSurface(root, {.height = 1.0}), Error);  // below the commissures
   EXPECT_THROW(LeafletSurface(root, {.gap = 0.005}), Error);   // through the neighbour
   EXPECT_THROW(LeafletSurface(root, {.rounding = 0.8}), Error);
   EXPECT_THROW(LeafletSurface(root, {.protrusion = -0.1}), Error);
+  EXPECT_THROW(LeafletSurface(root, {.coaptation = 1.1}), Error);  // from below the nadir
 }
 
 }  // namespace

@@ -96,4 +96,13 @@ TEST(TensionFibres, AreSlackInCompression) {
     EXPECT_NEAR(fibres, expected, 1e-14);
   }
 }
+
+// P = S lambda, S = E_f e exp(a e^2): at e = 0.345 and a = 4 by hand.
+TEST(TensionFibres, Stiffen) {
+  const TensionFibres law(matrix, 5.0, {1.0, 0.0, 0.0}, 4.0);
+  Mat<double, 3> F = Mat<double, 3>::identity();
+  F(0, 0) = 1.3;
+  const double fibres = law.first_piola(F, wrong)(0, 0) - matrix.first_piola(F, wrong)(0, 0);
+  EXPECT_NEAR(fibres, 5.0 * 0.345 * 1.3 * std::exp(4.0 * 0.119025), 1e-14);
+}
 }  // namespace

@@ -12,20 +12,27 @@ namespace ifsi {
 
 /// A law for the matrix, and fibres in one direction (eq. 43):
 ///
-///     psi(F) = psi_matrix(F) + E_f / 8 max(|F A|^2 - 1, 0)^2
+///     psi(F) = psi_matrix(F) + E_f / (2 a) (exp(a e^2) - 1),    e = max(|F A|^2 - 1, 0) / 2,
 ///
-/// A is the unit direction of the fibres in the undeformed body, E_f their modulus at small stretch. Shorter
-/// than undeformed they are slack, as the collagen of a leaflet is while the leaflet turns inside out: it
-/// opens as softly as its matrix allows and still holds the pressure when it is closed.
+/// and E_f e^2 / 2, its limit, for a = 0. A is the unit direction of the fibres in the undeformed body, e
+/// their Green-Lagrange strain, E_f their modulus at small stretch, a how fast they stiffen. Shorter than
+/// undeformed they are slack, as the collagen of a leaflet is while the leaflet turns inside out: it opens as
+/// softly as its matrix allows and still holds the pressure when it is closed.
 template <SolidLaw Law>
 class TensionFibres {
  public:
-  /// \param direction where the caller knows no other \throws Error (configuration) for a negative modulus
-  TensionFibres(Law law, double modulus, Vec<double, 3> direction)
-      : law_(law), modulus_(modulus), direction_(direction) {
+  /// \param modulus E_f, a stress
+  /// \param direction where the caller knows no other
+  /// \param stiffening a
+  /// \throws Error (configuration) for a negative modulus or stiffening
+  TensionFibres(Law law, double modulus, Vec<double, 3> direction, double stiffening = 0.0)
+      : law_(law), modulus_(modulus), stiffening_(stiffening), direction_(direction) {
     if (!(modulus >= 0.0))
       throw Error(ExitCode::configuration,
                   "modulus of fibres = " + std::to_string(modulus) + "; expected 0 or more");
+    if (!(stiffening >= 0.0))
+      throw Error(ExitCode::configuration,
+                  "stiffening of fibres = " + std::to_string(stiffening) + "; expected 0 or more");
   }
 
   template <class T, int n, int dim>
@@ -45,23 +52,26 @@ class TensionFibres {
   // The same where the caller knows the direction A at X, and what the matrix asks for (a sheet: its normal).
   template <class T, int n, int dim, class... Known>
   T psi(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A, const Known&... of_matrix) const {
-    const T s = stretched(F, A);
-    return T(law_.psi(F, X, of_matrix...) + 0.125 * modulus_ * s * s);
+    const T e = strain(F, A);
+    const T psi_f = stiffening_ > 0.0 ? T((growth(e) - 1.0) / (2.0 * stiffening_)) : T(0.5 * e * e);
+    return T(law_.psi(F, X, of_matrix...) + modulus_ * psi_f);
   }
   template <class T, int n, int dim, class... Known>
   Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A,
                         const Known&... of_matrix) const {
-    return law_.first_piola(F, X, of_matrix...) + T(0.5 * modulus_ * stretched(F, A)) * outer(F * A, A);
+    const T e = strain(F, A);
+    return law_.first_piola(F, X, of_matrix...) + T(modulus_ * e * growth(e)) * outer(F * A, A);
   }
   template <class T, int n, int dim, class... Known>
   Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& A,
                         const Known&... of_matrix) const {
     Tangent<T, n> K = law_.tangent(F, X, of_matrix...);
     const Vec<T, n> a = F * A;
-    const T s = stretched(F, A), taut = s / (s + 1e-14);  // 1 or 0
-    K += tangent_from<T, n>(
-        [&](int i, int J, int k, int L) { return T(modulus_ * taut * a[i] * A[J] * a[k] * A[L]); });
-    add_geometric(K, T(0.5 * modulus_ * s) * outer(A, A));
+    const T e = strain(F, A), taut = e / (e + 1e-14);  // 1 or 0
+    const T S = modulus_ * e * growth(e);
+    const T dS_de = modulus_ * taut * (1.0 + 2.0 * stiffening_ * e * e) * growth(e);
+    K += tangent_from<T, n>([&](int i, int J, int k, int L) { return T(dS_de * a[i] * A[J] * a[k] * A[L]); });
+    add_geometric(K, S * outer(A, A));
     return K;
   }
 
@@ -72,16 +82,22 @@ class TensionFibres {
     for (int i = 0; i < n; ++i) A[i] = T(direction_[i]);
     return A;
   }
-  /// max(|F A|^2 - 1, 0).
+  /// e.
   template <class T, int n>
-  [[nodiscard]] static T stretched(const Mat<T, n>& F, const Vec<T, n>& A) {
+  [[nodiscard]] static T strain(const Mat<T, n>& F, const Vec<T, n>& A) {
     using std::max;
     const Vec<T, n> a = F * A;
-    return max(T(dot(a, a) - 1.0), T(0.0));
+    return max(T(0.5 * (dot(a, a) - 1.0)), T(0.0));
+  }
+  /// exp(a e^2).
+  template <class T>
+  [[nodiscard]] T growth(const T& e) const {
+    using std::exp;
+    return stiffening_ > 0.0 ? T(exp(T(stiffening_ * e * e))) : T(1.0);
   }
 
   Law law_;
-  double modulus_;
+  double modulus_, stiffening_;
   Vec<double, 3> direction_;
 };
 

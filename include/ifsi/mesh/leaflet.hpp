@@ -20,11 +20,11 @@ namespace ifsi {
 /// commissural edges lie outside of the vessel by `protrusion`: their nodes are held there.
 struct Leaflet {
   double height = 1.6;       ///< of the commissures' top over the nadir
-  double dip = 0.6;          ///< of the free edge in the middle below the commissures' top
+  double dip = 0.8;          ///< of the free edge in the middle below the commissures' top
   double thickness = 0.015;  ///<
   double gap = 0.03;         ///< distance of the free edge from the planes of the commissures
   double rounding = 0.04;    ///< of the free edge: half the width of the hyperbola's middle
-  double belly = 0.1;        ///< sag towards the ventricle in the middle of the leaflet
+  double coaptation = 0.35;  ///< height from which on the middle runs up to the free edge
   double protrusion = 0.05;  ///< of the attached edges into the wall
 };
 
@@ -45,15 +45,17 @@ class LeafletSurface {
     }
     y_end_ = low;
     angle_end_ = std::atan2(y_end_, free_edge_x(y_end_));
+    const Point start = below_free_edge(0.0) - attachment(0.0);
+    const double speed = std::sqrt(dot(start, start)), end = leaflet.coaptation;
+    evenness_ = (speed - end) / (speed + end);
   }
 
+  /// Lines a = constant are parabolas: they leave the attachment towards a point below the free edge and
+  /// arrive there from that point. So not the edge alone but all lines near it reach to the axis.
   [[nodiscard]] Point at(double a, double b) const {
-    const Point from = attachment(a), to = free_edge(a), chord = free_edge(0.0) - attachment(0.0);
-    const double sag = 4.0 * b * (1.0 - b) * (1.0 - a * a) * leaflet_.belly / std::hypot(chord[0], chord[2]);
-    const double angle = a * angle_end_;
-    // Downwards and inwards, normal to the leaflet's profile in the mid-leaflet plane.
-    const Point down{-chord[2] * std::cos(angle), -chord[2] * std::sin(angle), chord[0]};
-    return (1.0 - b) * from + b * to + sag * down;
+    const Point from = attachment(a), to = free_edge(a), corner = below_free_edge(a);
+    const double t = b - evenness_ * b * (1.0 - b);
+    return (1.0 - t) * (1.0 - t) * from + 2.0 * t * (1.0 - t) * corner + t * t * to;
   }
   /// Unit normal, to the side of the aorta.
   [[nodiscard]] Point normal(double a, double b) const {
@@ -88,6 +90,11 @@ class LeafletSurface {
     const double y = a * y_end_;
     return {free_edge_x(y), y, leaflet_.height - (1.0 - a * a) * leaflet_.dip};
   }
+  [[nodiscard]] Point below_free_edge(double a) const {
+    // Half way up the commissural edge at its ends, where the parabola is that edge.
+    const double edge = leaflet_.height - root_.attachment(angle_end_);
+    return free_edge(a) - Point{0.0, 0.0, (1.0 - a * a) * leaflet_.coaptation + a * a * 0.5 * edge};
+  }
   [[nodiscard]] Point attachment(double a) const {
     const double angle = a * angle_end_;
     return {rim_ * std::cos(angle), rim_ * std::sin(angle), root_.attachment(angle)};
@@ -95,23 +102,25 @@ class LeafletSurface {
   void check() const {
     const Leaflet& l = leaflet_;
     if (l.thickness > 0.0 && l.gap > 0.5 * l.thickness && l.rounding > 0.0 && l.protrusion >= 0.0 &&
-        l.belly >= 0.0 && l.height > root_.commissure && l.height < root_.height && l.dip >= 0.0 &&
-        l.dip < l.height && l.gap + l.rounding < 0.5 * root_.radius)
+        l.coaptation > 0.0 && l.dip + l.coaptation < l.height && l.height > root_.commissure &&
+        l.height < root_.height && l.dip >= 0.0 && l.gap + l.rounding < 0.5 * root_.radius)
       return;
-    throw Error(ExitCode::configuration,
-                "leaflet: found height " + std::to_string(l.height) + ", dip " + std::to_string(l.dip) +
-                    ", thickness " + std::to_string(l.thickness) + ", gap " + std::to_string(l.gap) +
-                    ", rounding " + std::to_string(l.rounding) + ", belly " + std::to_string(l.belly) +
-                    ", protrusion " + std::to_string(l.protrusion) +
-                    "; expected a height between the commissures (" + std::to_string(root_.commissure) +
-                    ") and the end of the root (" + std::to_string(root_.height) +
-                    "), a gap of more than half the thickness, gap + rounding below half the radius, a dip "
-                    "below the height, and belly, dip and protrusion not negative");
+    throw Error(
+        ExitCode::configuration,
+        "leaflet: found height " + std::to_string(l.height) + ", dip " + std::to_string(l.dip) +
+            ", thickness " + std::to_string(l.thickness) + ", gap " + std::to_string(l.gap) + ", rounding " +
+            std::to_string(l.rounding) + ", coaptation " + std::to_string(l.coaptation) + ", protrusion " +
+            std::to_string(l.protrusion) + "; expected a height between the commissures (" +
+            std::to_string(root_.commissure) + ") and the end of the root (" + std::to_string(root_.height) +
+            "), a gap of more than half the thickness, gap + rounding below half the radius, dip "
+            "and coaptation together below the height, a coaptation, dip and protrusion not negative");
   }
 
   AorticRoot root_;
   Leaflet leaflet_;
   double rim_, y_end_, angle_end_;
+  double
+      evenness_;  ///< of the nodes along b: the parabola of the middle is as fast at its end as at its start
 };
 
 /// A leaflet as a mesh, and its lines b = constant on the side of the ventricle, from attachment to free

@@ -18,14 +18,14 @@ struct ValveOptions {
   static constexpr double z_inlet = -4.0;
 
   std::string model = "sector", element = "tet1", drive = "pressure", curve;
-  LawChoice law;
+  LawChoice law{"sheet", 0.01, 1.0};
   AorticRoot root;
   Leaflet leaflet;
   double downstream = 11.8, angle = 60.0, h = 0.35, h_valve = 0.12, growth = 0.2, wall_ratio = 0.7;
   double spacing = 0.5, protrusion_max = 0.08;
   int layers = 1;
   double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 1.5e6, nu = 0.4, backflow = 1.0;
-  double fibres = 1e7;
+  double fibres = 1e7, fibres_stiffening = 0.0;
   double z_before = -1.0, z_behind = 5.0, picture_every = 0.02;
   TimeOptions time;
   FlowOptions flow;
@@ -34,7 +34,7 @@ struct ValveOptions {
   ValveOptions() {
     time.dt = 1e-3, time.end = 1.0, time.adaptive = true, time.dt_max = 2e-3, time.checkpoint_every = 0.1;
     flow.rho_inf = 0.0, flow.newton.rtol = 1e-4;
-    fsi.s.s_max = 1e3, fsi.patch_layers = 0, fsi.seal = 1e4, fsi.seal_range = 4.0;
+    fsi.s.s_max = 1e3, fsi.k_p_rings = 1, fsi.patch_layers = 1, fsi.seal = 1e4, fsi.seal_range = 4.0;
   }
 
   void declare(Parameters& params) {
@@ -55,7 +55,8 @@ struct ValveOptions {
     params.add("solid.thickness", leaflet.thickness, "cm", "of the leaflets", positive);
     params.add("solid.gap", leaflet.gap, "cm", "of the free edge to the plane of the commissures", positive);
     params.add("solid.rounding", leaflet.rounding, "cm", "of the free edge in the middle", positive);
-    params.add("solid.belly", leaflet.belly, "cm", "sag of a leaflet", non_negative);
+    params.add("solid.coaptation", leaflet.coaptation, "cm",
+               "height over which a leaflet's middle turns up to the free edge", positive);
     params.add("solid.protrusion", leaflet.protrusion, "cm", "of the attached edges into the wall",
                non_negative);
     params.add("solid.protrusion_max", protrusion_max, "cm", "no node may lie further outside of the vessel",
@@ -68,6 +69,8 @@ struct ValveOptions {
     params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
     params.add("solid.fibres", fibres, "dyn/cm^2", "modulus of fibres between the commissures (eq. 43)",
                non_negative);
+    params.add("solid.fibres_stiffening", fibres_stiffening, "-",
+               "their stress grows by exp(this strain^2) (eq. 43)", non_negative);
     law.declare(params);
     params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
     params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);

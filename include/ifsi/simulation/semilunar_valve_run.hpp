@@ -225,11 +225,12 @@ template <class FluidElement>
 void run_semilunar_valve_in(Run& run, const ValveOptions& o, const std::string& data) {
   const NeoHookean law(Lame::from_young(o.E, o.nu));
   const Vec<double, 3> unused = {0.0, 0.0, 1.0};  // each point has its own directions
+  const auto with_fibres = [&](const auto& matrix) {
+    return TensionFibres(matrix, o.fibres, unused, o.fibres_stiffening);
+  };
   if (!o.law.is_sheet())
-    return run_semilunar_valve<FluidElement, Hex2, Fibred>(run, o, data,
-                                                           TensionFibres(law, o.fibres, unused));
-  run_semilunar_valve<FluidElement, Hex2, FibredSheet>(
-      run, o, data, TensionFibres(o.law.sheet(law, unused), o.fibres, unused));
+    return run_semilunar_valve<FluidElement, Hex2, Fibred>(run, o, data, with_fibres(law));
+  run_semilunar_valve<FluidElement, Hex2, FibredSheet>(run, o, data, with_fibres(o.law.sheet(law, unused)));
 }
 
 extern template void run_semilunar_valve_in<Tet1>(Run&, const ValveOptions&, const std::string&);
