@@ -88,15 +88,11 @@ class Fgmres {
     double sums[2] = {0, 0};
     for (int c = 0; c < block(); ++c) sums[c == options_.mass_component] += squares[c];
     comm_.sum_in_place(sums, 2);
-    check_finite(sums[0] + sums[1]);
+    if (!std::isfinite(sums[0] + sums[1]))
+      throw Error(ExitCode::linear_solver,
+                  "GMRES: NaN or infinity in the residual; expected finite numbers in matrix, right-hand side "
+                  "and start");
     return {std::sqrt(sums[0]), std::sqrt(sums[1])};
-  }
-
-  void check_finite(double number) const {
-    if (std::isfinite(number)) return;
-    throw Error(ExitCode::linear_solver,
-                "GMRES: NaN or infinity after " + std::to_string(report_.iterations) +
-                    " iterations; expected finite numbers in matrix, right-hand side and preconditioner");
   }
 
   [[nodiscard]] bool is_zero(const double* x) const {
@@ -131,6 +127,7 @@ class Fgmres {
     report_.message = "GMRES stopped after " + std::to_string(report_.iterations) + " iterations, momentum " +
                       part(report_.residual.momentum, report_.initial.momentum, report_.target.momentum) +
                       ", mass " + part(report_.residual.mass, report_.initial.mass, report_.target.mass);
+    if (not_finite_) report_.message += ": NaN or infinity from the preconditioner or the matrix";
   }
 
   /// One restart cycle: improves x from residual_. True when the Krylov space cannot grow any further.
@@ -160,7 +157,8 @@ class Fgmres {
     return list[k];
   }
 
-  /// One step of the Arnoldi process: direction z = P v, new basis vector from A z. False on breakdown.
+  /// One step of the Arnoldi process: direction z = P v, new basis vector from A z. False on breakdown. A
+  /// direction with numbers that are not finite is left out: the caller may have a better preconditioner.
   bool extend() {
     const int k = static_cast<int>(R_.size());
     Array &z = entry(Z_, k), &next = entry(V_, k + 1);
@@ -177,6 +175,7 @@ class Fgmres {
     ++report_.iterations;
     std::vector<double> h(k + 2, 0.0);
     const bool independent = orthogonalise(k + 1, h, next);
+    if (not_finite_) return false;
     rotate(h);
     R_.push_back(std::move(h));
     return independent;
@@ -184,15 +183,16 @@ class Fgmres {
 
   /// Removes the parts of work_ along V_0 .. V_{m-1}, collected in h; h[m] is what remains of its norm, and
   /// `next` is work_ over that. A pass that loses more than half the length is repeated ("twice is enough").
-  /// False when nothing remains.
+  /// False when nothing remains, or when work_ is not finite.
   bool orthogonalise(int m, std::vector<double>& h, Array& next) {
     std::vector<double> part(m + 1);
     double before = 0;
     for (int pass = 0; pass < 3; ++pass) {
       project(m, part);
       comm_.sum_in_place(part.data(), m + 1);
-      check_finite(part[m]);
       const double squared = part[m];
+      not_finite_ = !std::isfinite(squared);
+      if (not_finite_) return false;
       double left = squared;
       for (int j = 0; j < m; ++j) {
         left -= part[j] * part[j];
@@ -301,6 +301,7 @@ class Fgmres {
   std::vector<double> g_;
   std::vector<Rotation> rotations_;
   std::vector<double> reference_;  ///< per component of the block
+  bool not_finite_ = false;        ///< the last direction
   SolverReport report_;
 };
 

@@ -207,4 +207,20 @@ TEST(Fgmres, RefusesNaN) {
     EXPECT_EQ(e.code(), ExitCode::linear_solver);
   }
 }
+
+// What came before the NaN is kept, and finite.
+TEST(Fgmres, NaNFromThePreconditionerIsReported) {
+  System s;
+  int calls = 0;
+  const LinearMap identity = s.identity();
+  const LinearMap breaks = [&](double* x, double* y) {
+    identity(x, y);
+    if (++calls == 3) y[0] = std::numeric_limits<double>::quiet_NaN();
+  };
+  const SolverReport report = s.solve(tight_options(), breaks);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.iterations, 3);
+  EXPECT_NE(report.message.find("NaN"), std::string::npos) << report.message;
+  EXPECT_LT(report.residual.momentum, report.initial.momentum);
+}
 }  // namespace

@@ -107,4 +107,19 @@ TEST(PatchedSolver, AFailedSolveIsRepeatedWithANewSetUp) {
     EXPECT_EQ(solver.setups(), 2) << base;
   }
 }
+
+// NaN from the block preconditioner is a solve that failed: LU takes over. (In space: in the plane `auto`
+// takes LU from the start.)
+TEST(PatchedSolver, NaNFromThePreconditionerIsAFailedSolve) {
+  Scene<3> scene({.cells = 9, .rho_c = 10, .viscosity = 0.1, .wind = 1}, 3, 1e4);
+  const auto broken = [&] {
+    SchurParts parts = scene.schur_parts();
+    parts.convection = parts.mass;
+    for (double& entry : parts.convection.values) entry = std::numeric_limits<double>::quiet_NaN();
+    return parts;
+  };
+  PatchedSolver<4> solver({}, broken);
+  scene.solve(solver);
+  EXPECT_EQ(solver.setups(), 2);
+}
 }  // namespace

@@ -62,8 +62,8 @@ struct GmresWorkspace {
 /// to step. Each block of equations is divided by its target, so that the two count alike in what is
 /// minimised: in one mixed norm the mass equation stays unsolved. Orthogonalisation: classical Gram-Schmidt,
 /// repeated when cancellation asks for it. \param b, x  n_local * block numbers; x is the start and the
-/// result. Collective. Throws Error(linear_solver) when a NaN turns up; not converging is no error here, only
-/// reported.
+/// result. Collective. Throws Error(linear_solver) when the first residual is not finite; not converging, and
+/// a preconditioner that gives NaN, are no errors here, only reported.
 SolverReport fgmres(const Layout& layout, int block, const LinearMap& A, const LinearMap& preconditioner,
                     const double* b, double* x, const GmresOptions& options,
                     GmresWorkspace* workspace = nullptr);

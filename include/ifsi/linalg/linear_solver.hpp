@@ -38,7 +38,7 @@ class LinearSolver {
   /// Collective. Solves K x = rhs starting from the given x. Both hold n_local * B numbers; the ghosts of x
   /// are up to date afterwards. A block whose initial residual is next to nothing beside the other's
   /// (converted by the sizes of A and D) gets a thousandth of that as measure. Not converging is reported,
-  /// not thrown; Error(linear_solver) tells of NaN or a singular matrix.
+  /// not thrown; Error(linear_solver) tells of NaN in the right-hand side or a singular matrix.
   SolverReport solve(const BlockCsr<B>& K, std::span<const double> rhs, std::span<double> x,
                      const SolveTarget& target = {});
   SolverReport solve(const BlockCsr<B>& K, std::span<const double> rhs, std::span<double> x,
