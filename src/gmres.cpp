@@ -89,9 +89,10 @@ class Fgmres {
     for (int c = 0; c < block(); ++c) sums[c == options_.mass_component] += squares[c];
     comm_.sum_in_place(sums, 2);
     if (!std::isfinite(sums[0] + sums[1]))
-      throw Error(ExitCode::linear_solver,
-                  "GMRES: NaN or infinity in the residual; expected finite numbers in matrix, right-hand side "
-                  "and start");
+      throw Error(
+          ExitCode::linear_solver,
+          "GMRES: NaN or infinity in the residual; expected finite numbers in matrix, right-hand side "
+          "and start");
     return {std::sqrt(sums[0]), std::sqrt(sums[1])};
   }
 
