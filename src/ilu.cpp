@@ -51,32 +51,64 @@ void subtract_product(const float* A, const float* B, float* C) {
       for (int k = 0; k < D; ++k) C[r * D + c] -= A[r * D + k] * B[k * D + c];
 }
 
-/// y = b - sum of the blocks [begin, end) times x, the last one first: what the row before has just found
-/// comes last in the forward sweep and first in the backward one, and is best waited for at the end. y may be
-/// b.
-template <int D, bool backward = false>
+/// y = b - sum of the blocks [begin, end) times x. y may be b.
+template <int D>
 void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, const float* x, float* y) {
   const int* cols = A.pattern().cols.data();
   BlockRow<float, D> row;
-  for (int m = begin; m < end; ++m) {
-    const int k = backward ? begin + end - 1 - m : m;
-    row.add(A.at(k), x + static_cast<std::size_t>(cols[k]) * D);
-  }
+  for (int k = begin; k < end; ++k) row.add(A.at(k), x + static_cast<std::size_t>(cols[k]) * D);
   row.store_difference(b, y);
 }
 
 }  // namespace
 
+/// Goes through a triangle from its first row to its last.
+template <int D>
+class BlockIlu<D>::Reader {
+ public:
+  explicit Reader(const Triangle& rows)
+      : first_(rows.cols.data()), col_(first_), end_(rows.row_end.data()), block_(rows.values.data()) {}
+  /// y = b - the next row's sum of blocks times x. y may be b.
+  void next_residual(const float* b, const float* x, float* y) {
+    BlockRow<float, D> row;
+    for (const int* end = first_ + *end_++; col_ != end; ++col_, block_ += D * D)
+      row.add(block_, x + static_cast<std::size_t>(*col_) * D);
+    row.store_difference(b, y);
+  }
+
+ private:
+  const int *first_, *col_, *end_;
+  const float* block_;
+};
+
 template <int D>
 void BlockIlu<D>::factor() {
   const OverlapPattern& at = LU_.pattern();
   std::vector<int> position(LU_.n_rows(), -1);
+  pivots_.resize(static_cast<std::size_t>(LU_.n_rows()) * D * D);
   for (int i = 0; i < LU_.n_rows(); ++i) {
     eliminate_row(i, position);
-    float* pivot = LU_.at(at.diagonal[i]);
+    float* pivot = &pivots_[static_cast<std::size_t>(i) * D * D];
+    std::copy_n(LU_.at(at.diagonal[i]), D * D, pivot);
     invert<D>(pivot, i);
     for (int k = at.row_ptr[i]; k < at.row_ptr[i + 1]; ++k)
       if (k != at.diagonal[i]) multiply_from_left<D>(pivot, LU_.at(k));
+  }
+  line_up();
+}
+
+/// Copies L and U to where the sweeps read them.
+template <int D>
+void BlockIlu<D>::line_up() {
+  const auto& [row_ptr, cols, diagonal, blocks] = LU_.pattern();
+  lower_.clear(), upper_.clear();
+  for (int i = 0; i < LU_.n_rows(); ++i) {
+    for (int k = row_ptr[i]; k < diagonal[i]; ++k) lower_.append(LU_.at(k), cols[k]);
+    lower_.end_row();
+  }
+  for (int i = LU_.n_rows() - 1; i >= 0; --i) {
+    for (int k = row_ptr[i + 1] - 1; k > diagonal[i]; --k) upper_.append(LU_.at(k), cols[k]);
+    upper_.end_row();
   }
 }
 
@@ -97,15 +129,15 @@ void BlockIlu<D>::eliminate_row(int i, std::vector<int>& position) {
 template <int D>
 void BlockIlu<D>::apply(float* b, float* x) const {
   LU_.layout().update_ghosts(b, D);
-  const OverlapPattern& at = LU_.pattern();
+  Reader rows_of_L(lower_), rows_of_U(upper_);
   float scaled[D];
   for (int i = 0; i < LU_.n_rows(); ++i) {
-    multiply<D>(LU_.at(at.diagonal[i]), b + static_cast<std::size_t>(i) * D, scaled);
-    row_residual<D>(LU_, at.row_ptr[i], at.diagonal[i], scaled, x, x + static_cast<std::size_t>(i) * D);
+    multiply<D>(&pivots_[static_cast<std::size_t>(i) * D * D], b + static_cast<std::size_t>(i) * D, scaled);
+    rows_of_L.next_residual(scaled, x, x + static_cast<std::size_t>(i) * D);
   }
   for (int i = LU_.n_rows() - 1; i >= 0; --i) {
     float* xi = x + static_cast<std::size_t>(i) * D;
-    row_residual<D, true>(LU_, at.diagonal[i] + 1, at.row_ptr[i + 1], xi, x, xi);
+    rows_of_U.next_residual(xi, x, xi);
   }
 }
 

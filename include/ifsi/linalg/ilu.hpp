@@ -31,12 +31,30 @@ class BlockIlu {
   void apply(float* b, float* x) const;
 
  private:
+  /// The rows of L or U in the order in which a sweep needs them, each row with what the sweep has found last
+  /// at its end. Rows of the whole matrix would be fetched twice, by either sweep for the half it uses.
+  struct Triangle {
+    std::vector<int> row_end, cols;
+    AlignedVector<float> values;
+
+    void clear() { row_end.clear(), cols.clear(), values.clear(); }
+    void append(const float* block, int col) {
+      values.insert(values.end(), block, block + D * D);
+      cols.push_back(col);
+    }
+    void end_row() { row_end.push_back(static_cast<int>(cols.size())); }
+  };
+  class Reader;
+
   void factor();
   void eliminate_row(int i, std::vector<int>& position);
+  void line_up();
 
-  /// The inverse of the pivot D_i on the diagonal; beside it the row of L and U, each multiplied by it from
-  /// the left, so that neither sweep has to wait for a product with the pivot: (L + D) D^-1 (D + U).
+  /// Each row of L and U is multiplied by the inverse of its pivot D_i from the left, so that neither sweep
+  /// has to wait for a product with the pivot: (L + D) D^-1 (D + U).
   LocalBlocks<D> LU_;
+  AlignedVector<float> pivots_;  ///< D_i^-1
+  Triangle lower_, upper_;
 };
 
 /// ILU(0) applied several times, each time to what is left over. What diffuses over some cells in a time step
