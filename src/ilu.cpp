@@ -101,7 +101,12 @@ void BlockIlu<D>::factor() {
 template <int D>
 void BlockIlu<D>::line_up() {
   const auto& [row_ptr, cols, diagonal, blocks] = LU_.pattern();
-  lower_.clear(), upper_.clear();
+  const std::size_t n_blocks = (cols.size() - row_ptr.size() + 1) / 2;  // the pattern is symmetric
+  for (Triangle* triangle : {&lower_, &upper_}) {
+    triangle->clear();
+    triangle->cols.reserve(n_blocks);
+    triangle->values.reserve(n_blocks * D * D);
+  }
   for (int i = 0; i < LU_.n_rows(); ++i) {
     for (int k = row_ptr[i]; k < diagonal[i]; ++k) lower_.append(LU_.at(k), cols[k]);
     lower_.end_row();

@@ -24,7 +24,7 @@ struct SaddleOptions {
 ///     z_v = A^-1 (r_v - G z_p)
 ///
 /// with M, N, C of SchurParts, N^-1 by one V-cycle and (M + L)^-1 by ILU(0); in steady flow S^-1 = (M + L)^-1
-/// (1 + C N^-1) with 0.8 M. N needs boundary terms, different ones beside C than alone (add_outlet_terms,
+/// (1 + C N^-1). N needs boundary terms, different ones beside C than alone (add_outlet_terms,
 /// add_inflow_terms): it is set up twice where transport matters. B = dim + 1. Rows of prescribed unknowns
 /// are diagonal rows.
 template <int B>
