@@ -97,6 +97,12 @@ TEST(TensionFibres, AreSlackInCompression) {
   }
 }
 
+TEST(TensionFibres, RefuseNegativeStiffness) {
+  const Point A{1.0, 0.0, 0.0};
+  EXPECT_THROW(TensionFibres(matrix, -5.0, A), Error);
+  EXPECT_THROW(TensionFibres(matrix, 5.0, A, -1.0), Error);
+}
+
 // P = S lambda, S = E_f e exp(a e^2): at e = 0.345 and a = 4 by hand.
 TEST(TensionFibres, Stiffen) {
   const TensionFibres law(matrix, 5.0, {1.0, 0.0, 0.0}, 4.0);

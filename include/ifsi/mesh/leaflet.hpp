@@ -50,8 +50,8 @@ class LeafletSurface {
     evenness_ = (speed - end) / (speed + end);
   }
 
-  /// Lines a = constant are parabolas: they leave the attachment towards a point below the free edge and
-  /// arrive there from that point. So not the edge alone but all lines near it reach to the axis.
+  /// Lines a = constant are parabolas (eq. 40): they leave the attachment towards a point below the free edge
+  /// and arrive there from that point. So not the edge alone but all lines near it reach to the axis.
   [[nodiscard]] Point at(double a, double b) const {
     const Point from = attachment(a), to = free_edge(a), corner = below_free_edge(a);
     const double t = b - evenness_ * b * (1.0 - b);
