@@ -10,8 +10,8 @@
 //               diameter 2.8
 //
 // Pressure and flow over time (data/curves) are assumptions; so is the geometry, which is idealised.
-// Metrics: docs/cases.md. There is no reference solution: the checks are ranges of physiology and what the
-// method must hold (volume, det F, regurgitation).
+// Metrics: docs/cases/semilunar_valve.md. There is no reference solution: the checks are ranges of physiology
+// and what the method must hold (volume, det F, regurgitation).
 #include "ifsi/simulation/semilunar_valve.hpp"
 
 using namespace ifsi;

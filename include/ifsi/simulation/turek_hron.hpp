@@ -89,7 +89,7 @@ inline const std::vector<TurekHronReference>& turek_hron_references() {
       {"CFD2", "lift", 10.53},
       {"CFD3", "drag", 439.45, 5.6183, 4.3956},
       {"CFD3", "lift", -11.893, 437.81, 4.3956},
-      // 0.0227 with a flag that the mean pressure compresses; without this, docs/cases.md
+      // 0.0227 with a flag that the mean pressure compresses; without this, docs/cases/turek_hron.md
       {"FSI1", "tip_ux", 0.0252},
       {"FSI1", "tip_uy", 0.8209},
       {"FSI1", "drag", 14.294},

@@ -35,7 +35,7 @@ namespace ifsi {
 }
 
 /// The curves of a beat, of the whole valve, and the figures that follow from them. Definitions:
-/// docs/cases.md.
+/// docs/cases/semilunar_valve.md.
 class ValveCurves {
  public:
   struct Sample {
