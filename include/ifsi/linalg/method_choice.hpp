@@ -27,7 +27,7 @@ struct MethodChoice {
 };
 
 /// LU up to a number of unknowns: 3,000 in space. In the plane, while one rank does all the work, 400,000
-/// with immersed solids and 150,000 where AMG is needed; 5,000 otherwise (docs/solvers.md has the
+/// with immersed solids and 150,000 where AMG is needed; 5,000 otherwise (docs/solver-studies.md has the
 /// measurements).
 [[nodiscard]] MethodChoice choose_method(const SystemTraits& system);
 
