@@ -7,6 +7,7 @@ libraries   hypre, METIS, SuiteSparse, MUMPS, fmt, toml++, CLI11 and zlib stay o
 equations   every `(eq. N)` cited in a source or document is defined, once, in docs/equations.md
 functions   none over 80 lines, and half of them at most 10; no driver over 80 lines
 links       every relative link of the documents leads somewhere
+cases       every driver has its page, docs/cases/CASE.md, and a link to it in docs/cases/README.md
 """
 
 import argparse
@@ -242,7 +243,17 @@ def check_links(tree):
                 yield f"{name}:{line_of(text, match.start())}: the link to {target} leads nowhere"
 
 
-CHECKS = [check_layers, check_standard, check_libraries, check_cycles, check_equations, check_functions, check_links]
+def check_cases(tree):
+    index = tree.root / "docs/cases/README.md"
+    listed = index.read_text() if index.exists() else ""
+    for driver in sorted(tree.root.glob("drivers/*.cpp")):
+        page = f"{driver.stem}.md"
+        if not (index.parent / page).exists() or f"]({page})" not in listed:
+            yield f"drivers/{driver.name}:1: expected a page docs/cases/{page}, linked in docs/cases/README.md"
+
+
+CHECKS = [check_layers, check_standard, check_libraries, check_cycles, check_equations, check_functions, check_links,
+          check_cases]
 
 
 def main():

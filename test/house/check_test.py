@@ -92,7 +92,13 @@ class Check(unittest.TestCase):
         self.assert_fault("the median function has 12 lines", src__a_DOT_cpp="int f() {\n" + "  g();\n" * 10 + "}\n")
 
     def test_long_driver(self):
-        self.assert_fault("a driver has at most 80 lines", drivers__a_DOT_cpp="\n" * 81)
+        self.assert_fault("a driver has at most 80 lines", drivers__a_DOT_cpp="\n" * 81,
+                          docs__cases__a_DOT_md="", docs__cases__README_DOT_md="[a](a.md)")
+
+    def test_driver_without_a_page(self):
+        expected = "drivers/a.cpp:1: expected a page docs/cases/a.md"
+        self.assert_fault(expected, drivers__a_DOT_cpp="")
+        self.assert_fault(expected, drivers__a_DOT_cpp="", docs__cases__a_DOT_md="")
 
     def test_dead_link(self):
         self.assert_fault("README.md:2: the link to docs/nothing.md leads nowhere",
