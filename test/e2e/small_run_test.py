@@ -15,6 +15,8 @@ CASES = {
     "semilunar_valve": settings(mesh__h=0.7, mesh__h_valve=0.35, time__dt=2e-3, time__end=2e-3, newton__rtol=1e-10,
                                 coupling__s_max=10),
     "sphere elastic": settings(body="elastic", mesh__n=3, time__dt=5e-3, time__end=0.02, newton__rtol=1e-10),
+    "sphere elastic in space": settings(model="quarter3d", body="elastic", mesh__n=2.5, time__dt=1e-2, time__end=0.02,
+                                        newton__rtol=1e-10),
 }
 TAYLOR_GREEN_3D = settings(mesh__n=3, mesh__element="hex1", time__dt=0.05, time__end=0.1, newton__rtol=1e-12)
 

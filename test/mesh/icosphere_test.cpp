@@ -17,7 +17,7 @@ TEST_P(Icosphere, HasTenPointsPerSquareOfTheFrequencyOnTheSphere) {
 
 TEST_P(Icosphere, SpreadsThemEvenly) {
   const auto points = icosphere_points(0.25, GetParam());
-  const double spacing = icosphere_spacing(0.25, GetParam());
+  const double spacing = even_spacing(0.25, 10.0 * GetParam() * GetParam() + 2.0);
   EXPECT_EQ(icosphere_frequency(0.25, spacing), GetParam());
   for (const auto& x : points) {
     double nearest = 1.0;

@@ -24,6 +24,25 @@ struct Ball {
 
 namespace detail {
 
+/// Boundary `surface`, and where half[d] cuts the ball at x_d = 0 cut_x, cut_y or cut_z.
+template <class Element>
+void name_ball_boundaries(GlobalMesh<Element>& mesh, const std::array<bool, Element::dim>& half,
+                          double radius) {
+  constexpr std::array names{"cut_x", "cut_y", "cut_z"};
+  mesh.boundary_names = {"surface"};
+  std::array<int, Element::dim> cut{};
+  for (int d = 0; d < Element::dim; ++d)
+    if (half[d]) {
+      cut[d] = static_cast<int>(mesh.boundary_names.size());
+      mesh.boundary_names.emplace_back(names[d]);
+    }
+  mark_boundaries(mesh, [&](const Vec<double, Element::dim>& x) {
+    for (int d = 0; d < Element::dim; ++d)
+      if (half[d] && std::abs(x[d]) < 1e-9 * radius) return cut[d];
+    return 0;
+  });
+}
+
 /// Builds a ball from the lattice of its core and, over each outer face of the lattice, a column of shell
 /// cells.
 template <class Element>
@@ -34,8 +53,8 @@ class BallMesh {
   using Index = std::array<int, dim>;
 
  public:
-  BallMesh(const Ball& ball, const std::array<bool, dim>& half) : ball_(ball) {
-    check(half);
+  BallMesh(const Ball& ball, const std::array<bool, dim>& half) : ball_(ball), half_(half) {
+    check();
     layers_ = geometric_axis(0, 1, ball.n_shell, ball.shell_ratio);
     for (int d = 0; d < dim; ++d) {
       first_[d] = half[d] ? ball.n_core / 2 : 0;
@@ -55,13 +74,13 @@ class BallMesh {
         if (i[d] == counts_[d] - 1) add_column(i, d, true, lattice);
       }
     });
-    name_boundaries();
+    name_ball_boundaries(mesh_, half_, ball_.radius);
     return std::move(mesh_);
   }
 
  private:
-  void check(const std::array<bool, dim>& half) const {
-    const bool cut = half != std::array<bool, dim>{};
+  void check() const {
+    const bool cut = half_ != std::array<bool, dim>{};
     if (ball_.n_core < 1 || ball_.n_shell < 1 || (cut && ball_.n_core % 2 == 1) || !(ball_.core_radius > 0) ||
         !(ball_.core_radius < ball_.radius))
       throw Error(ExitCode::configuration,
@@ -70,21 +89,6 @@ class BallMesh {
                       std::to_string(ball_.n_shell) +
                       " cells; expected 0 < core_radius < radius, positive counts, an even count in the core "
                       "where a plane cuts it");
-  }
-
-  void name_boundaries() {
-    mesh_.boundary_names = {"surface"};
-    std::array<int, dim> cut;
-    for (int d = 0; d < dim; ++d) {
-      cut[d] = static_cast<int>(mesh_.boundary_names.size());
-      constexpr std::array names{"cut_x", "cut_y", "cut_z"};
-      if (first_[d] > 0) mesh_.boundary_names.emplace_back(names[d]);
-    }
-    mark_boundaries(mesh_, [&](const Point& x) {
-      for (int d = 0; d < dim; ++d)
-        if (first_[d] > 0 && std::abs(x[d]) < 1e-9 * ball_.radius) return cut[d];
-      return 0;
-    });
   }
 
   /// Lattice coordinates in [-1, 1].
@@ -156,6 +160,7 @@ class BallMesh {
   }
 
   Ball ball_;
+  std::array<bool, dim> half_;
   Index first_, counts_;
   Axis layers_;                            ///< of the shells, from 0 at the cube to 1 at the surface
   std::vector<std::vector<int>> columns_;  ///< per lattice point: the core's point, then those of the shells

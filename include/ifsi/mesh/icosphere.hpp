@@ -58,16 +58,19 @@ inline std::vector<Vec<double, 3>> icosphere_points(double radius, int frequency
   return points;
 }
 
-/// Distance of neighbours if 10 f^2 + 2 points covered the sphere with equilateral triangles.
-inline double icosphere_spacing(double radius, int frequency) {
-  const double area = 4.0 * std::numbers::pi * radius * radius / (10.0 * frequency * frequency + 2.0);
-  return std::sqrt(area * 2.0 / std::numbers::sqrt3);
+/// Distance of neighbours if n points covered a sphere with equilateral triangles.
+inline double even_spacing(double radius, double n) {
+  return radius * std::sqrt(8.0 * std::numbers::pi / (std::numbers::sqrt3 * n));
 }
 
-/// The frequency with which neighbours come nearest to that distance.
+/// How many points have that distance, at least two.
+inline double even_count(double radius, double spacing) {
+  return std::max(2.0, 8.0 * std::numbers::pi * radius * radius / (std::numbers::sqrt3 * spacing * spacing));
+}
+
+/// The frequency with which neighbours come nearest to a distance.
 inline int icosphere_frequency(double radius, double spacing) {
-  const double n = 4.0 * std::numbers::pi * radius * radius * 2.0 / (std::numbers::sqrt3 * spacing * spacing);
-  return std::max(1, static_cast<int>(std::lround(std::sqrt(std::max(0.0, n - 2.0) / 10.0))));
+  return std::max(1, static_cast<int>(std::lround(std::sqrt((even_count(radius, spacing) - 2.0) / 10.0))));
 }
 
 }  // namespace ifsi

@@ -41,7 +41,9 @@ struct SphereOptions {
     params.add("mesh.phase", phase, "-", "shift of the fluid mesh along z, in cells", {-1.0, 1.0});
     params.add("mesh.growth", growth, "-", "growth of the cells away from the sphere at mesh.n = 10",
                {1.0, 2.0});
-    params.add("solid.spacing", spacing, "-", "solid over fluid cells (0: by model, 1 to 2)", {0.0, 10.0});
+    params.add("solid.spacing", spacing, "-",
+               "of the points of the sphere's surface, in fluid cells (0: 1 in (r, z), 1.2 in space)",
+               {0.0, 10.0});
     params.add("solid.radius_correction", radius_correction, "-",
                "elastic: mesh the sphere smaller by this many fluid cells, its weight kept", {0.0, 1.0});
     params.add("solid.interior", interior, "-", "elastic: part of the fluid's equations kept inside (1: all)",
@@ -63,12 +65,10 @@ struct SphereOptions {
   [[nodiscard]] double h() const { return a / n; }
   /// Growth per cell, so that meshes of all sizes are refinements of one.
   [[nodiscard]] double growth_per_cell() const { return std::pow(growth, 10.0 / n); }
-  /// Cells of the solid in those of the fluid. 1.2: ten points of the icosphere per (a / h)^2. Points of a
-  /// cubed sphere crowd at its eight corners.
+  /// Distance of the points of the sphere's surface in fluid cells.
   [[nodiscard]] double solid_spacing() const {
     if (spacing > 0.0) return spacing;
-    if (model == "axisymmetric") return is_rigid() ? 1.0 : 2.0;
-    return is_rigid() ? 1.2 : 1.5;
+    return model == "axisymmetric" ? 1.0 : 1.2;
   }
 
   /// \throws Error (configuration) for choices that contradict each other.

@@ -13,6 +13,7 @@
 #include "ifsi/assembly/rigid_shape.hpp"
 #include "ifsi/mesh/ball.hpp"
 #include "ifsi/mesh/icosphere.hpp"
+#include "ifsi/mesh/octasphere.hpp"
 #include "ifsi/simulation/sphere_case.hpp"
 
 namespace ifsi {
@@ -39,7 +40,7 @@ inline Axis sphere_heights(const SphereOptions& o) {
 /// The tank: boundaries surface, bottom, top, and the symmetry planes cut_x, cut_y (cut_x is the axis).
 template <class Element>
 GlobalMesh<Element> tank_mesh(const SphereOptions& o) {
-  const double h = o.h(), reach = 1.4 * o.a;
+  const double h = o.h(), reach = std::lround(1.4 * o.n) * h;  // whole cells of just this size
   if constexpr (Element::dim == 2) {
     auto mesh = box<Element>(
         {refined_axis(0.0, 0.0, reach, o.tank_radius, h, o.growth_per_cell()), sphere_heights(o)});
@@ -67,17 +68,31 @@ FlowBoundary<dim> tank_boundary(const SphereOptions& o) {
   return boundary;
 }
 
-template <class Element>
-GlobalMesh<Element> sphere_mesh(const SphereOptions& o) {
-  constexpr int dim = Element::dim;
-  const double radius = o.a - o.radius_correction * o.h(),
-               cells = std::numbers::pi * o.n / (4.0 * o.solid_spacing());
-  const int n_core = 2 * std::max(1, static_cast<int>(std::lround(cells)));
-  std::array<bool, dim> half{};
-  for (int d = 0; d + 1 < dim; ++d) half[d] = o.is_cut();
+/// Layers of a solid this thick, none of them thinner than two fluid cells: points close below the surface
+/// bind the cut cells' fluid as those on it do, and lock them.
+inline int layers(const SphereOptions& o, double thickness) {
+  constexpr double cells = 2.2;
+  return std::max(1, static_cast<int>(thickness / (cells * o.h())));
+}
+
+/// The sphere's mesh: quads in (r, z); in space tetrahedra, an octasphere, which the planes of symmetry cut
+/// along edges.
+template <int dim>
+auto sphere_mesh(const SphereOptions& o) {
+  const double radius = o.a - o.radius_correction * o.h(), spacing = o.solid_spacing() * o.h();
   Vec<double, dim> centre{};
   centre[0] = o.offset, centre[dim - 1] = o.z_0;
-  return moved(ball<Element>({radius, 0.65 * radius, n_core, std::max(1, n_core / 4)}, half), centre);
+  if constexpr (dim == 2) {
+    const double core_radius = 0.65 * radius;
+    const int n_core =
+        2 * std::max(1, static_cast<int>(std::lround(std::numbers::pi * o.a / (4.0 * spacing))));
+    return moved(ball<Quad1>({radius, core_radius, n_core, layers(o, radius - core_radius)}, {true, false}),
+                 centre);
+  } else {
+    return moved(octasphere({radius, octasphere_frequency(o.a, spacing), layers(o, radius)},
+                            {o.is_cut(), o.is_cut(), false}),
+                 centre);
+  }
 }
 
 template <int dim>
@@ -85,8 +100,8 @@ double distance_to_sphere(const SphereOptions& o, const Vec<double, dim>& centre
   return std::sqrt(dot(x - centre, x - centre)) - o.a;
 }
 
-/// Points of the surface of a rigid sphere: the nodes of a mesh of it in (r, z), in space those of an
-/// icosphere, in the model quarter3d the ones on this side of the planes.
+/// Points of the surface of a rigid sphere: the nodes of its mesh in (r, z), in space those of an icosphere,
+/// in the model quarter3d the ones on this side of the planes.
 template <class Element>
 std::vector<Vec<double, Element::dim>> surface_points(const SphereOptions& o,
                                                       const GlobalMesh<Element>& sphere,
@@ -159,7 +174,7 @@ FallResult fall_rigid(Run& run, const SphereOptions& o, const std::string& curve
   using Problem = RigidFsiProblem<Element, Model>;
   using Motion = typename Problem::Motion;
   const auto mesh = distribute(tank_mesh<Element>(o), run.comm());
-  const auto sphere = sphere_mesh<Element>(o);
+  const auto sphere = sphere_mesh<dim>(o);
   auto shape = rigid_shape<Coordinates>(sphere);
   shape.volume = o.volume / (o.model == "quarter3d" ? 4.0 : 1.0);
   shape.centre = Vec<double, dim>::zero();
@@ -190,7 +205,7 @@ FallResult fall_elastic(Run& run, const SphereOptions& o, const std::string& cur
   constexpr int dim = Element::dim;
   using Problem = FsiProblem<Element, Body, Model>;
   const auto mesh = distribute(tank_mesh<Element>(o), run.comm());
-  auto sphere = sphere_mesh<Element>(o);
+  auto sphere = sphere_mesh<dim>(o);
   const double volume = rigid_shape<typename Model::Coordinates>(sphere).volume;
   const double true_volume = o.volume / (o.model == "quarter3d" ? 4.0 : 1.0);
   SolidParameters<dim> solid{
