@@ -14,13 +14,13 @@ namespace ifsi {
 
 /// The falling sphere, cgs units: a tank of radius 2 and height 4 cm, a sphere of radius a at height z_0.
 struct SphereOptions {
-  static constexpr double a = 0.25, tank_radius = 2.0, tank_height = 4.0, z_0 = 2.5, g = 981.0;
+  static constexpr double a = 0.25, tank_radius = 2.0, tank_height = 4.0, g = 981.0;
   static constexpr double volume = 4.0 / 3.0 * std::numbers::pi * a * a * a;
   static constexpr double v_rigid = 0.509767;  ///< of the reference calculation, cm/s
 
   std::string model = "axisymmetric", body = "rigid", sweep = "none";
   double n = 10.0, phase = 0.0, growth = 1.05, spacing = 0.0, radius_correction = 0.0, offset = 0.0,
-         interior = 1e-2;
+         z_0 = 2.5, interior = 1e-2;
   double rho_f = 1.0, rho_s = 1.5, mu = 10.0, C0 = 33550.0, kappa = 3355.0;
   bool steady = false;
   TimeOptions time;
@@ -50,6 +50,7 @@ struct SphereOptions {
                {1e-12, 1.0});
     params.add("solid.offset", offset, "cm", "of the sphere from the axis of the tank (elastic3d, rigid3d)",
                {0.0, 0.05});
+    params.add("solid.height", z_0, "cm", "of the sphere above the bottom at the start", {0.75, 3.25});
     params.add("solid.rho", rho_s, "g/cm^3", "density of the sphere", positive);
     params.add("solid.C0", C0, "dyn/cm^2", "shear modulus of the elastic sphere", positive);
     params.add("solid.kappa", kappa, "dyn/cm^2", "bulk modulus of the elastic sphere", positive);
