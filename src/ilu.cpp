@@ -1,47 +1,7 @@
 #include "ifsi/linalg/ilu.hpp"
 
-#include <cmath>
-#include <string>
-
-#include "ifsi/core/error.hpp"
-#include "ifsi/core/tensor.hpp"
-#include "ifsi/linalg/block_row.hpp"
-
 namespace ifsi {
 namespace {
-
-/// Replaces a block by its inverse; computed in double, since pivots may be nearly singular in float.
-template <int D>
-void invert(float* block, int row) {
-  Mat<double, D> A;
-  for (int e = 0; e < D * D; ++e) A.data[e] = block[e];
-  const double d = det(A);
-  if (!(std::abs(d) > 0) || !std::isfinite(d))
-    throw Error(ExitCode::linear_solver, "incomplete factorisation: singular diagonal block at local node " +
-                                             std::to_string(row) + "; expected a regular velocity block");
-  const Mat<double, D> inverse_of_A = inverse(A);
-  for (int e = 0; e < D * D; ++e) block[e] = static_cast<float>(inverse_of_A.data[e]);
-}
-
-/// y = A x for one block.
-template <int D>
-void multiply(const float* A, const float* x, float* y) {
-  for (int r = 0; r < D; ++r) {
-    float sum = 0;
-    for (int c = 0; c < D; ++c) sum += A[r * D + c] * x[c];
-    y[r] = sum;
-  }
-}
-
-/// B = A B for blocks.
-template <int D>
-void multiply_from_left(const float* A, float* B) {
-  float product[D * D] = {};
-  for (int r = 0; r < D; ++r)
-    for (int c = 0; c < D; ++c)
-      for (int k = 0; k < D; ++k) product[r * D + c] += A[r * D + k] * B[k * D + c];
-  std::copy_n(product, D * D, B);
-}
 
 /// C -= A B for blocks.
 template <int D>
@@ -62,25 +22,6 @@ void row_residual(const LocalBlocks<D>& A, int begin, int end, const float* b, c
 
 }  // namespace
 
-/// Goes through a triangle from its first row to its last.
-template <int D>
-class BlockIlu<D>::Reader {
- public:
-  explicit Reader(const Triangle& rows)
-      : first_(rows.cols.data()), col_(first_), end_(rows.row_end.data()), block_(rows.values.data()) {}
-  /// y = b - the next row's sum of blocks times x. y may be b.
-  void next_residual(const float* b, const float* x, float* y) {
-    BlockRow<float, D> row;
-    for (const int* end = first_ + *end_++; col_ != end; ++col_, block_ += D * D)
-      row.add(block_, x + static_cast<std::size_t>(*col_) * D);
-    row.store_difference(b, y);
-  }
-
- private:
-  const int *first_, *col_, *end_;
-  const float* block_;
-};
-
 template <int D>
 void BlockIlu<D>::factor() {
   const OverlapPattern& at = LU_.pattern();
@@ -94,27 +35,8 @@ void BlockIlu<D>::factor() {
     for (int k = at.row_ptr[i]; k < at.row_ptr[i + 1]; ++k)
       if (k != at.diagonal[i]) multiply_from_left<D>(pivot, LU_.at(k));
   }
-  line_up();
-}
-
-/// Copies L and U to where the sweeps read them.
-template <int D>
-void BlockIlu<D>::line_up() {
-  const auto& [row_ptr, cols, diagonal, blocks] = LU_.pattern();
-  const std::size_t n_blocks = (cols.size() - row_ptr.size() + 1) / 2;  // the pattern is symmetric
-  for (Triangle* triangle : {&lower_, &upper_}) {
-    triangle->clear();
-    triangle->cols.reserve(n_blocks);
-    triangle->values.reserve(n_blocks * D * D);
-  }
-  for (int i = 0; i < LU_.n_rows(); ++i) {
-    for (int k = row_ptr[i]; k < diagonal[i]; ++k) lower_.append(LU_.at(k), cols[k]);
-    lower_.end_row();
-  }
-  for (int i = LU_.n_rows() - 1; i >= 0; --i) {
-    for (int k = row_ptr[i + 1] - 1; k > diagonal[i]; --k) upper_.append(LU_.at(k), cols[k]);
-    upper_.end_row();
-  }
+  lower_.take_lower(LU_);
+  upper_.take_upper(LU_);
 }
 
 /// Row i after the rows above it. `position` maps a column to its block in row i; -1 elsewhere, also on
@@ -134,7 +56,7 @@ void BlockIlu<D>::eliminate_row(int i, std::vector<int>& position) {
 template <int D>
 void BlockIlu<D>::apply(float* b, float* x) const {
   LU_.layout().update_ghosts(b, D);
-  Reader rows_of_L(lower_), rows_of_U(upper_);
+  typename Triangle<D, float>::Reader rows_of_L(lower_), rows_of_U(upper_);
   float scaled[D];
   for (int i = 0; i < LU_.n_rows(); ++i) {
     multiply<D>(&pivots_[static_cast<std::size_t>(i) * D * D], b + static_cast<std::size_t>(i) * D, scaled);
@@ -171,46 +93,11 @@ void RefinedIlu<D>::subtract_product_with(float* x, float* b) const {
   }
 }
 
-template <int D>
-void BlockGaussSeidel<D>::invert_diagonals() {
-  inverse_.resize(static_cast<std::size_t>(A_.n_rows()) * D * D);
-  for (int i = 0; i < A_.n_rows(); ++i) {
-    float* block = &inverse_[static_cast<std::size_t>(i) * D * D];
-    std::copy_n(A_.at(A_.pattern().diagonal[i]), D * D, block);
-    invert<D>(block, i);
-  }
-}
-
-template <int D>
-void BlockGaussSeidel<D>::apply(float* b, float* x) const {
-  A_.layout().update_ghosts(b, D);
-  const OverlapPattern& at = A_.pattern();
-  float rest[D];
-  const auto relax = [&](int i, int begin, int end) {
-    row_residual<D>(A_, begin, end, b + static_cast<std::size_t>(i) * D, x, rest);
-  };
-  // Forward, from zero: what lies above the diagonal has not been reached yet.
-  for (int i = 0; i < A_.n_rows(); ++i) {
-    relax(i, at.row_ptr[i], at.diagonal[i]);
-    multiply<D>(&inverse_[static_cast<std::size_t>(i) * D * D], rest, x + static_cast<std::size_t>(i) * D);
-  }
-  // Backward: the whole row, the old value of the diagonal taken out again by adding a correction.
-  for (int i = A_.n_rows() - 1; i >= 0; --i) {
-    relax(i, at.row_ptr[i], at.row_ptr[i + 1]);
-    float correction[D];
-    multiply<D>(&inverse_[static_cast<std::size_t>(i) * D * D], rest, correction);
-    for (int r = 0; r < D; ++r) x[static_cast<std::size_t>(i) * D + r] += correction[r];
-  }
-}
-
 template class BlockIlu<1>;
 template class BlockIlu<2>;
 template class BlockIlu<3>;
 template class RefinedIlu<1>;
 template class RefinedIlu<2>;
 template class RefinedIlu<3>;
-template class BlockGaussSeidel<1>;
-template class BlockGaussSeidel<2>;
-template class BlockGaussSeidel<3>;
 
 }  // namespace ifsi

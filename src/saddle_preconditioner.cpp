@@ -10,9 +10,21 @@
 #include "ifsi/linalg/amg.hpp"
 #include "ifsi/linalg/extract.hpp"
 #include "ifsi/linalg/flush_denormals.hpp"
+#include "ifsi/linalg/gauss_seidel.hpp"
 #include "ifsi/linalg/ilu.hpp"
 
 namespace ifsi {
+
+FlowNumbers flow_numbers(const SchurParts& parts) {
+  FlowNumbers numbers{.viscous = parts.viscous_number, .bulk = parts.bulk_number, .order = parts.order};
+  if (!parts.convection.shared_pattern()) return numbers;
+  double sums[2] = {0, 0};
+  for (double value : parts.convection.values) sums[0] += std::abs(value);
+  for (double value : parts.mass.values) sums[1] += value;
+  parts.mass.layout().communicator().sum_in_place(sums, 2);
+  numbers.transport = sums[0] / sums[1];
+  return numbers;
+}
 
 template <int B>
 class SaddlePreconditioner<B>::Impl {
@@ -30,12 +42,11 @@ class SaddlePreconditioner<B>::Impl {
       throw Error(ExitCode::linear_solver,
                   "preconditioner: the Schur parts do not have the pattern of the matrix");
     pattern_ = K.shared_pattern();
-    viscous_number_ = parts.viscous_number, bulk_number_ = parts.bulk_number;
-    order_ = parts.order;
+    flow_ = flow_numbers(parts);
     steady_ = parts.steady;
     convection_ = parts.convection;
     has_convection_ = convection_.shared_pattern() != nullptr;
-    crosses_cells_ = has_convection_ && transport_matters(parts);
+    crosses_cells_ = flow_.transport > 1;
     update_velocity(K);
     update_gradient(K);
     update_schur(K, parts);
@@ -65,8 +76,9 @@ class SaddlePreconditioner<B>::Impl {
     if (std::holds_alternative<BlockIlu<dim>>(velocity_)) text += "ILU(0)";
     if (const auto* refined = std::get_if<RefinedIlu<dim>>(&velocity_))
       text += "ILU(0) " + std::to_string(refined->passes()) + " times";
-    if (std::holds_alternative<BlockGaussSeidel<dim>>(velocity_)) text += "Gauss-Seidel";
-    text += " (viscous number " + std::to_string(viscous_number_) + "); pressure: ILU(0) of mass and PSPG";
+    if (const auto* sweeps = std::get_if<GaussSeidel<dim>>(&velocity_))
+      text += "Gauss-Seidel, passes: " + std::to_string(sweeps->passes());
+    text += " (viscous number " + std::to_string(flow_.viscous) + "); pressure: ILU(0) of mass and PSPG";
     if (inertia_.ready()) text += ", inertia by " + inertia_.description();
     if (transport_.ready()) text += ", transport by " + transport_.description();
     return text;
@@ -86,20 +98,33 @@ class SaddlePreconditioner<B>::Impl {
             .aggressive_levels = 0,
             .cycles = dim == 2 ? 2 : 1,
             .w_cycle = dim == 3 && !steady_,
-            .nodal = order_ == 1};
+            .nodal = flow_.order == 1};
   }
 
   void update_velocity(const BlockCsr<B>& K) {
-    if (options_.velocity == "amg" ||
-        (options_.velocity == "auto" && needs_amg(viscous_number_, order_, bulk_number_))) {
+    const std::string solver = options_.velocity == "auto" ? suitable_velocity_solver() : options_.velocity;
+    if (solver == "amg") {
       velocity_.template emplace<Amg>(velocity_amg_options()).setup(extract_diagonal_part<dim>(K, 0));
-    } else if (options_.velocity == "gauss_seidel") {
-      velocity_.template emplace<BlockGaussSeidel<dim>>().update(K);
-    } else if (const int passes = ilu_passes(viscous_number_, crosses_cells_); passes > 1) {
-      velocity_.template emplace<RefinedIlu<dim>>(passes, order_ == 1 ? 1.0f : 0.7f).update(K);
+    } else if (solver == "gauss_seidel") {
+      velocity_.template emplace<GaussSeidel<dim>>(sweep_weights()).update(K);
+    } else if (const int passes = ilu_passes(flow_.viscous, crosses_cells_); passes > 1) {
+      velocity_.template emplace<RefinedIlu<dim>>(passes, flow_.order == 1 ? 1.0f : 0.7f).update(K);
     } else {
       velocity_.template emplace<BlockIlu<dim>>().update(K);
     }
+  }
+
+  [[nodiscard]] std::string suitable_velocity_solver() const {
+    const int ranks = pattern_->layout.communicator().size();
+    if (gauss_seidel_serves(flow_, ranks)) return "gauss_seidel";
+    return needs_amg(flow_, ranks) ? "amg" : "ilu";
+  }
+
+  /// Of the sweeps of Gauss-Seidel. The lowest eigenvalue falls as diffusion over a time step grows; so many
+  /// passes that a twentieth is left of all errors. Where fluid crosses cells the spectrum is wider.
+  [[nodiscard]] std::vector<float> sweep_weights() const {
+    const double lowest = 1 / (1 + 3 * flow_.viscous);
+    return chebyshev_weights(std::min(lowest, crosses_cells_ ? 0.5 : 0.95), 0.05);
   }
 
   void update_gradient(const BlockCsr<B>& K) {
@@ -141,15 +166,6 @@ class SaddlePreconditioner<B>::Impl {
     }
     for (std::size_t k = 0; k < local.values.size(); ++k) local.values[k] += parts.mass.values[k];
     local_part_.update(local);
-  }
-
-  /// Whether the flow crosses about a cell or more per 1 / c: sum |C| / sum M is |v| / (c h) or so.
-  [[nodiscard]] bool transport_matters(const SchurParts& parts) const {
-    double sums[2] = {0, 0};
-    for (double value : convection_.values) sums[0] += std::abs(value);
-    for (double value : parts.mass.values) sums[1] += value;
-    pattern_->layout.communicator().sum_in_place(sums, 2);
-    return sums[0] > sums[1];
   }
 
   /// Robin terms of the Laplacian within C N^-1 where fluid flows in: the columns of C sum up to the flux v.n
@@ -229,16 +245,15 @@ class SaddlePreconditioner<B>::Impl {
     } else if (auto* refined = std::get_if<RefinedIlu<dim>>(&velocity_)) {
       refined->apply(r_v_.data(), z_v_.data());
     } else {
-      std::get<BlockGaussSeidel<dim>>(velocity_).apply(r_v_.data(), z_v_.data());
+      std::get<GaussSeidel<dim>>(velocity_).apply(r_v_.data(), z_v_.data());
     }
   }
 
   SaddleOptions options_;
   std::shared_ptr<const Pattern> pattern_;
-  double viscous_number_ = 0, bulk_number_ = 0;
-  std::variant<BlockIlu<dim>, RefinedIlu<dim>, BlockGaussSeidel<dim>, Amg> velocity_;
+  FlowNumbers flow_;
+  std::variant<BlockIlu<dim>, RefinedIlu<dim>, GaussSeidel<dim>, Amg> velocity_;
   AlignedVector<float> gradient_;  ///< G: dim numbers per block of the pattern
-  int order_ = 1;
   bool steady_ = false, has_convection_ = false;
   bool crosses_cells_ = false;  ///< the flow, about one or more within 1 / c
   Amg inertia_;                 ///< N^-1 of its own

@@ -1,4 +1,4 @@
-// Incomplete LU and Gauss-Seidel against their definitions on dense copies of each rank's part of the matrix.
+// Incomplete LU against its definition on dense copies of each rank's part of the matrix.
 #include <gtest/gtest.h>
 
 #include "dense.hpp"
@@ -177,19 +177,5 @@ TEST(RefinedIlu, TreatsWhatIluHasLeftOver) {
     refined.apply(lost.data(), x.data());
     EXPECT_LT((x.cast<double>() - sum).head(n).norm(), 1e-5 * sum.head(n).norm()) << passes;
   }
-}
-
-TEST(BlockGaussSeidel, IsOneForwardAndOneBackwardSweep) {
-  const auto model = coupled_model<2>({.cells = 4, .wind = 2});
-  const MatrixXd A = local_part<2>(model.K);
-  MatrixXd D = MatrixXd::Zero(A.rows(), A.cols()), L = D, U = D;
-  for (long i = 0; i < A.rows(); ++i)
-    for (long j = 0; j < A.cols(); ++j) (i / 2 == j / 2 ? D : i > j ? L : U)(i, j) = A(i, j);
-  BlockGaussSeidel<2> sweep;
-  sweep.update(model.K);
-  agrees<2>(sweep, model.grid.layout, [&](const VectorXd& b) {
-    const VectorXd forward = test::solve(D + L, b);
-    return test::solve(D + U, b - test::multiply(L, forward));
-  });
 }
 }  // namespace

@@ -41,6 +41,7 @@ struct Scene {
   [[nodiscard]] SchurParts schur_parts() const {
     const double h = 1.0 / fluid.options.cells;
     SchurParts parts{fluid.mass, fluid.laplacian};
+    if (fluid.options.wind != 0) parts.convection = fluid.convection;
     parts.viscous_number = fluid.options.viscosity / (fluid.options.rho_c * h * h);
     return parts;
   }

@@ -2,23 +2,28 @@
 /// \file
 /// The inner loop of all block sparse products: one block row times a vector.
 
+#include <cstdint>
 #include <cstring>
+
+#include "ifsi/linalg/bfloat16.hpp"
 
 namespace ifsi {
 
 /// Sums K_ij x_j over the blocks of a row, blocks row-major. Every entry of a block has its own accumulator,
 /// so that no addition waits for another; the columns are added up once per row, in store(). Two to four
 /// columns: the entries of a block fill registers of four lanes one after the other, and x is repeated along
-/// them. The compiler is told, because left alone it transposes.
+/// them. The compiler is told, because left alone it transposes. Blocks may be stored in Bfloat16 where T is
+/// float.
 template <class T, int B>
 class BlockRow {
  public:
-  void add(const T* K, const T* x) {
+  template <class Stored>
+  void add(const Stored* K, const T* x) {
     if constexpr (B == 2) add(0, K, Register{x[0], x[1], x[0], x[1]});
     if constexpr (B == 3) {
       add(0, K, Register{x[0], x[1], x[2], x[0]});
       add(1, K, Register{x[1], x[2], x[0], x[1]});
-      last_ += K[8] * x[2];
+      last_ += static_cast<T>(K[8]) * x[2];
     }
     if constexpr (B == 4) {
       Register columns;
@@ -65,6 +70,16 @@ class BlockRow {
     std::memcpy(&entries, K + 4 * m, sizeof entries);
     sum_[m] += entries * factors;
   }
+  void add(int m, const Bfloat16* K, const Register& factors) {
+    typedef std::uint16_t Halves __attribute__((vector_size(8)));
+    typedef std::uint32_t Words __attribute__((vector_size(16)));
+    Halves halves;
+    std::memcpy(&halves, K + 4 * m, sizeof halves);
+    const Words words = __builtin_convertvector(halves, Words) << 16;
+    Register entries;
+    std::memcpy(&entries, &words, sizeof entries);
+    sum_[m] += entries * factors;
+  }
 
   Register sum_[n_registers] = {};
   T last_ = 0;  ///< the ninth entry of B = 3
@@ -73,7 +88,10 @@ class BlockRow {
 template <class T>
 class BlockRow<T, 1> {
  public:
-  void add(const T* K, const T* x) { sum_ += *K * *x; }
+  template <class Stored>
+  void add(const Stored* K, const T* x) {
+    sum_ += static_cast<T>(*K) * *x;
+  }
   void store(T* y) const { *y = sum_; }
   void store_difference(const T* b, T* y) const { *y = *b - sum_; }
 

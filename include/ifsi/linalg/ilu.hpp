@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Cheap approximate inverses of a block matrix dominated by its mass: incomplete LU and Gauss-Seidel.
+/// Incomplete LU: a cheap approximate inverse of a block matrix dominated by its mass.
 
 #include <vector>
 
-#include "ifsi/linalg/local_blocks.hpp"
+#include "ifsi/linalg/triangle.hpp"
 
 namespace ifsi {
 
@@ -31,30 +31,14 @@ class BlockIlu {
   void apply(float* b, float* x) const;
 
  private:
-  /// The rows of L or U in the order in which a sweep needs them, each row with what the sweep has found last
-  /// at its end. Rows of the whole matrix would be fetched twice, by either sweep for the half it uses.
-  struct Triangle {
-    std::vector<int> row_end, cols;
-    AlignedVector<float> values;
-
-    void clear() { row_end.clear(), cols.clear(), values.clear(); }
-    void append(const float* block, int col) {
-      values.insert(values.end(), block, block + D * D);
-      cols.push_back(col);
-    }
-    void end_row() { row_end.push_back(static_cast<int>(cols.size())); }
-  };
-  class Reader;
-
   void factor();
   void eliminate_row(int i, std::vector<int>& position);
-  void line_up();
 
   /// Each row of L and U is multiplied by the inverse of its pivot D_i from the left, so that neither sweep
   /// has to wait for a product with the pivot: (L + D) D^-1 (D + U).
   LocalBlocks<D> LU_;
   AlignedVector<float> pivots_;  ///< D_i^-1
-  Triangle lower_, upper_;
+  Triangle<D, float> lower_, upper_;
 };
 
 /// ILU(0) applied several times, each time to what is left over. What diffuses over some cells in a time step
@@ -93,32 +77,8 @@ extern template class BlockIlu<1>;
 extern template class BlockIlu<2>;
 extern template class BlockIlu<3>;
 
-/// Symmetric block Gauss-Seidel sweeps, with the same overlap. No factorisation: the set-up is a copy.
-template <int D>
-class BlockGaussSeidel {
- public:
-  /// Collective. Throws Error(linear_solver) when a diagonal block is singular.
-  template <int B>
-  void update(const BlockCsr<B>& K) {
-    A_.assign(K);
-    invert_diagonals();
-  }
-  /// Collective. x = what one forward and one backward sweep make of x = 0; b and x as for BlockIlu, but
-  /// different arrays.
-  void apply(float* b, float* x) const;
-
- private:
-  void invert_diagonals();
-
-  LocalBlocks<D> A_;
-  AlignedVector<float> inverse_;  ///< of the diagonal blocks
-};
-
 extern template class RefinedIlu<1>;
 extern template class RefinedIlu<2>;
 extern template class RefinedIlu<3>;
-extern template class BlockGaussSeidel<1>;
-extern template class BlockGaussSeidel<2>;
-extern template class BlockGaussSeidel<3>;
 
 }  // namespace ifsi

@@ -39,12 +39,12 @@ struct MethodChoice {
 template <int B>
 [[nodiscard]] MethodChoice choose_method(const BlockCsr<B>& K, const SchurParts& parts,
                                          bool immersed = false) {
-  return choose_method(
-      {.dim = B - 1,
-       .unknowns = K.layout().n_global() * B,
-       .ranks = K.layout().communicator().size(),
-       .needs_amg = SaddlePreconditioner<B>::needs_amg(parts.viscous_number, parts.order, parts.bulk_number),
-       .immersed = immersed});
+  const int ranks = K.layout().communicator().size();
+  return choose_method({.dim = B - 1,
+                        .unknowns = K.layout().n_global() * B,
+                        .ranks = ranks,
+                        .needs_amg = SaddlePreconditioner<B>::needs_amg(flow_numbers(parts), ranks),
+                        .immersed = immersed});
 }
 
 }  // namespace ifsi

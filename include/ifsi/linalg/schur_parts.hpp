@@ -29,6 +29,16 @@ struct SchurParts {
   bool steady = false;  ///< no inertia: N^-1 alone is not part of S^-1
 };
 
+/// What the velocity block is like, without its size.
+struct FlowNumbers {
+  double viscous = 0, bulk = 0;  ///< see SchurParts
+  double transport = 0;  ///< how many cells the flow crosses within 1 / c, |v| / (c h): sum |C| / sum M
+  int order = 1;
+};
+
+/// Collective.
+[[nodiscard]] FlowNumbers flow_numbers(const SchurParts& parts);
+
 /// Called when a preconditioner is renewed, and only then.
 using SchurProvider = std::function<SchurParts()>;
 
