@@ -4,7 +4,7 @@ namespace ifsi {
 
 MethodChoice choose_method(const SystemTraits& system) {
   long limit = 5'000;
-  std::string where = "in the plane where ILU(0) serves the velocity";
+  std::string where = "in the plane where few sweeps serve the velocity";
   if (system.dim == 3) {
     limit = 3'000;
     where = "in space";
@@ -16,6 +16,9 @@ MethodChoice choose_method(const SystemTraits& system) {
   } else if (system.needs_amg) {
     limit = 150'000;
     where = "in the plane on one rank where the velocity needs AMG";
+  } else if (system.diffusive) {
+    limit = 40'000;
+    where = "in the plane on one rank where diffusion crosses cells";
   }
   const bool direct = system.unknowns <= limit;
   return {direct, (direct ? "at most " : "more than ") + std::to_string(limit) + ", the limit " + where};

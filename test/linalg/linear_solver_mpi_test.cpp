@@ -162,7 +162,7 @@ TEST(LinearSolver, SaysWhatItChoseAndWhy) {
   EXPECT_NE(asked.description().find("as asked for"), std::string::npos);
 }
 
-// In the plane one rank keeps LU where ILU(0) does not serve the velocity; several share what GMRES does.
+// In the plane one rank keeps LU longer where the velocity is expensive; several share what GMRES does.
 TEST(LinearSolver, ChoosesByDimensionSizeRanksAndViscousNumber) {
   const auto direct = [](const SystemTraits& system) { return choose_method(system).direct; };
   EXPECT_TRUE(direct({.dim = 2, .unknowns = 4'000, .ranks = 2}));
@@ -170,6 +170,8 @@ TEST(LinearSolver, ChoosesByDimensionSizeRanksAndViscousNumber) {
   EXPECT_TRUE(direct({.dim = 2, .unknowns = 20'000, .needs_amg = true}));
   EXPECT_FALSE(direct({.dim = 2, .unknowns = 20'000, .ranks = 2, .needs_amg = true}));
   EXPECT_FALSE(direct({.dim = 2, .unknowns = 200'000, .needs_amg = true}));
+  EXPECT_TRUE(direct({.dim = 2, .unknowns = 20'000, .diffusive = true}));
+  EXPECT_FALSE(direct({.dim = 2, .unknowns = 50'000, .diffusive = true}));
   EXPECT_TRUE(direct({.dim = 2, .unknowns = 200'000, .ranks = 2, .immersed = true}));
   EXPECT_TRUE(direct({.dim = 3, .unknowns = 2'000}));
   EXPECT_FALSE(direct({.dim = 3, .unknowns = 4'000, .needs_amg = true}));
