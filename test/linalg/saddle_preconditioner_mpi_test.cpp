@@ -148,8 +148,8 @@ TEST(SaddlePreconditioner, DiffusionOverManyCellsTakesFewIterationsWithGaussSeid
 
 TEST(SaddlePreconditioner, TakesGaussSeidelInThePlaneWhileTheFlowCrossesFewCells) {
   using Plane = SaddlePreconditioner<3>;
-  EXPECT_TRUE(Plane::gauss_seidel_serves({.viscous = 90}, 1));
-  EXPECT_FALSE(Plane::gauss_seidel_serves({.viscous = 110}, 1));
+  EXPECT_TRUE(Plane::gauss_seidel_serves({.viscous = 45, .bulk = 180}, 1));
+  EXPECT_FALSE(Plane::gauss_seidel_serves({.viscous = 55}, 1));
   EXPECT_TRUE(Plane::gauss_seidel_serves({.viscous = 1.4}, 2));
   EXPECT_FALSE(Plane::gauss_seidel_serves({.viscous = 1.6}, 2));  // ranks
   EXPECT_TRUE(Plane::gauss_seidel_serves({.viscous = 2, .transport = 2.9}, 1));

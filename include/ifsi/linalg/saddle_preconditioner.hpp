@@ -14,7 +14,7 @@ namespace ifsi {
 struct SaddleOptions {
   /// Approximate inverse of the velocity block: "ilu" (once, or several times where that pays),
   /// "gauss_seidel" (as many passes as diffusion asks for), "amg", or "auto": Gauss-Seidel in the plane up to
-  /// a viscous number (SchurParts) of 100 while the flow crosses few cells in a step; otherwise ILU(0) up to
+  /// a viscous number (SchurParts) of 50 while the flow crosses few cells in a step; otherwise ILU(0) up to
   /// a number between 1.5 and three, AMG beyond. See gauss_seidel_serves, needs_amg.
   std::string velocity = "auto";
   bool enclosed = false;  ///< the pressure is known up to a constant
@@ -36,10 +36,11 @@ class SaddlePreconditioner {
 
   /// Whether "auto" takes Gauss-Seidel for the velocity. Where the flow crosses cells, and diffusion does not
   /// outdo it, the eigenvalues leave the real axis, and its polynomial, made for that, amplifies; in space it
-  /// does so at CFL 16 in any case. The grad-div term (s = 1e5) is not seen by the viscous number. Several
-  /// ranks: no further than the overlap.
+  /// does so at CFL 16 in any case. A grad-div term beyond the four times viscous that it
+  /// has by itself (s = 1e5) is not reckoned with. Several ranks: no further than the overlap.
   [[nodiscard]] static constexpr bool gauss_seidel_serves(const FlowNumbers& flow, int ranks) {
-    return dim == 2 && flow.viscous <= (ranks == 1 ? 100.0 : 1.5) && flow.bulk <= 20.0 &&
+    return dim == 2 && flow.viscous <= (ranks == 1 ? 50.0 : 1.5) &&
+           flow.bulk <= std::max(20.0, 5.0 * flow.viscous) &&
            (flow.transport <= 1.0 || flow.transport <= std::min(3.0 * flow.order, 2.0 * flow.viscous));
   }
   /// Whether "auto" takes AMG for the velocity: ILU(0) stays within 25 iterations, or nearly, up to this
