@@ -30,9 +30,9 @@ struct Row {
 /// Taylor-Green (2D) or Ethier-Steinman (3D) to `end` in steps of dt; the error is relative to the exact
 /// velocity.
 template <class Element>
-Row vortex(Run& run, int n, double dt, double end, const std::string& method) {
+Row vortex(Run& run, int n, double dt, double end, const std::string& method, double nu = 0.01) {
   using Exact = std::conditional_t<Element::dim == 2, TaylorGreen, EthierSteinman>;
-  const Exact exact{0.01};
+  const Exact exact{nu};
   const auto mesh = distribute(exact_domain<Element>(n), run.comm());
   FlowBoundary<Element::dim> boundary;
   for (const std::string& side : mesh.boundary_names)
@@ -90,14 +90,14 @@ void pareto(Run& run, const std::string& method, int largest) {
 }
 
 template <class Element>
-void growth(Run& run, const std::vector<double>& sizes, const std::string& method) {
+void growth(Run& run, const std::vector<double>& sizes, const std::string& method, double nu) {
   CsvFile csv = run.csv(std::string("growth_") + Element::name + ".csv",
                         {{"unknowns", "-"}, {"us_per_unknown_step", "us"}, {"v_rel", "-"}});
   for (double size : sizes) {
     const int n = static_cast<int>(size);
     const double dt = 0.4 / n, steps = 10;
     const long gmres_before = run.totals.gmres;
-    const Row r = vortex<Element>(run, n, dt, steps * dt, method);
+    const Row r = vortex<Element>(run, n, dt, steps * dt, method, nu);
     csv.row({r.unknowns, r.us(), r.error});
     run.log(std::string(Element::name) + "  " + std::to_string(std::lround(r.unknowns)) +
             " unknowns: " + std::to_string(r.us()) + " us per unknown and step, " +
@@ -136,18 +136,20 @@ int main(int argc, char** argv) {
   return run_case(argc, argv, {"bench_flow", "speed against error of the flow solver"}, [](Run& run) {
     std::string part = "all", method = "auto";
     int largest = 64;
+    double nu = 0.01;
     std::vector<double> plane{57, 182, 577}, space{13, 28, 62};
     run.params.add_choice("part", part, {"all", "pareto", "growth", "cylinder"}, "what to measure");
     run.params.add_choice("linear.method", method, {"auto", "direct", "gmres"}, "linear solver");
     run.params.add("largest", largest, "-", "cells per side of the finest mesh of the Pareto plot",
                    {16, 512});
     run.params.add("plane", plane, "-", "growth in the plane: cells per side; may be empty");
+    run.params.add("nu", nu, "length^2/time", "kinematic viscosity of the growth", {1e-6, 1.0});
     run.params.add("space", space, "-", "growth in space");
     run.parse();
     if (part == "all" || part == "pareto") pareto(run, method, largest);
     if (part == "all" || part == "cylinder") cylinder(run);
     if (part != "all" && part != "growth") return;
-    growth<Quad1>(run, plane, method);
-    growth<Hex1>(run, space, method);
+    growth<Quad1>(run, plane, method, nu);
+    growth<Hex1>(run, space, method, nu);
   });
 }
