@@ -121,10 +121,11 @@ class SaddlePreconditioner<B>::Impl {
   }
 
   /// Of the sweeps of Gauss-Seidel. The lowest eigenvalue falls as diffusion over a time step grows; so many
-  /// passes that a twentieth is left of all errors. Where fluid crosses cells the spectrum is wider.
+  /// passes that a twentieth is left of all errors, 60 at most. Where fluid crosses cells the spectrum is
+  /// wider.
   [[nodiscard]] std::vector<float> sweep_weights() const {
     const double lowest = 1 / (1 + 3 * flow_.viscous);
-    return chebyshev_weights(std::min(lowest, crosses_cells_ ? 0.5 : 0.95), 0.05);
+    return chebyshev_weights(std::clamp(lowest, 1e-3, crosses_cells_ ? 0.5 : 0.95), 0.05);
   }
 
   void update_gradient(const BlockCsr<B>& K) {

@@ -1,6 +1,8 @@
 // The block preconditioner against its block equations, and the iteration counts it is there for.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "dense.hpp"
 #include "ifsi/core/error.hpp"
 #include "ifsi/linalg/amg.hpp"
@@ -144,6 +146,16 @@ TEST(SaddlePreconditioner, GaussSeidelServesSmallTimeSteps) {
 TEST(SaddlePreconditioner, DiffusionOverManyCellsTakesFewIterationsWithGaussSeidel) {
   const bool one_rank = Communicator().size() == 1;
   EXPECT_LE(iterations<2>({.cells = 40, .rho_c = .05, .viscosity = .01}, "gauss_seidel"), one_rank ? 20 : 40);
+}
+
+// Asked for where diffusion has no bounds: the number of passes has.
+TEST(SaddlePreconditioner, SteadyFlowMayBeGivenToGaussSeidel) {
+  const StokesModel<2> model({.cells = 4});
+  SaddlePreconditioner<3> P({.velocity = "gauss_seidel"});
+  SchurParts parts = schur_parts(model);
+  parts.viscous_number = std::numeric_limits<double>::infinity();
+  P.update(model.K, parts);
+  EXPECT_NE(P.description().find("passes: 59 "), std::string::npos) << P.description();
 }
 
 TEST(SaddlePreconditioner, TakesGaussSeidelInThePlaneWhileTheFlowCrossesFewCells) {

@@ -11,7 +11,8 @@ namespace ifsi {
 
 /// Factors w_1 .. w_n of x <- x + w_k M^-1 (b - A x) that keep the error in an interval [lowest, 1] of
 /// eigenvalues of M^-1 A smallest: one over the zeros of a Chebyshev polynomial, which n make it 1 / T_n((1 +
-/// lowest) / (1 - lowest)) at most (Golub, Varga 1961). As many as bring that below `error`.
+/// lowest) / (1 - lowest)) at most (Golub, Varga 1961). As many as bring that below `error`. Both numbers lie
+/// between 0 and 1.
 [[nodiscard]] std::vector<float> chebyshev_weights(double lowest, double error);
 
 /// M^-1 A of symmetric Gauss-Seidel, M = (D + L) D^-1 (D + U), has all eigenvalues in (0, 1] where A is
