@@ -3,10 +3,13 @@
 // slabs: K = [A G; D L] with A = c M + nu (grad, grad) + (b.grad), D = (q, div v), G = -D^T, L = tau (grad,
 // grad). Built from one-dimensional mass, stiffness and first-derivative matrices, so the oracle needs no
 // elements.
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "ifsi/core/error.hpp"
 #include "ifsi/linalg/block_csr.hpp"
 
 namespace ifsi::test {
@@ -160,5 +163,19 @@ struct StokesModel {
     return x;
   }
 };
+
+/// A preconditioner of the velocity block names the node whose row is zero.
+template <class Preconditioner>
+void tells_where_a_block_is_singular() {
+  StokesModel<2> model({.cells = 6});
+  for (int k = model.K.row_ptr()[5]; k < model.K.row_ptr()[6]; ++k) std::fill_n(model.K.at(k), 9, 0.0);
+  Preconditioner preconditioner;
+  try {
+    preconditioner.update(model.K);
+    FAIL() << "expected an Error";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("node 5"), std::string::npos) << e.what();
+  }
+}
 
 }  // namespace ifsi::test

@@ -23,7 +23,7 @@ void invert(float* block, int row) {
   for (int e = 0; e < D * D; ++e) A.data[e] = block[e];
   const double d = det(A);
   if (!(std::abs(d) > 0) || !std::isfinite(d))
-    throw Error(ExitCode::linear_solver, "incomplete factorisation: singular diagonal block at local node " +
+    throw Error(ExitCode::linear_solver, "preconditioner: singular diagonal block at local node " +
                                              std::to_string(row) + "; expected a regular velocity block");
   const Mat<double, D> inverse_of_A = inverse(A);
   for (int e = 0; e < D * D; ++e) block[e] = static_cast<float>(inverse_of_A.data[e]);
