@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "ifsi/assembly/solid_fields.hpp"
 #include "ifsi/core/error.hpp"
 #include "ifsi/core/pack.hpp"
+#include "ifsi/coupling/solid_cells.hpp"
 #include "ifsi/element/elements.hpp"
 #include "ifsi/material/materials.hpp"
 #include "ifsi/mesh/global_mesh.hpp"
@@ -22,55 +24,6 @@
 #include "ifsi/solid/volume_quantile.hpp"
 
 namespace ifsi {
-
-/// Nodal displacement, velocity and acceleration, dim numbers per node, each at its own level of the time
-/// scheme. An empty velocity or acceleration is zero.
-struct SolidState {
-  std::span<const double> u, v = {}, a = {};
-};
-
-/// How an assembly went: the smallest det F at a quadrature point, and the cell that has it.
-struct DeformationReport {
-  double min_det_F = 1e300;
-  int cell = -1;
-  /// Some cell is turned inside out (or not a number): it was left out and the state must be rejected.
-  [[nodiscard]] bool inverted() const { return cell >= 0 && !(min_det_F > 0); }
-  /// Keeps the worse of both; a NaN is worst.
-  void merge(double det_F, int c) {
-    if (!(det_F >= min_det_F) && min_det_F == min_det_F) *this = {det_F, c};
-  }
-};
-
-/// Balances of a body: volumes (areas in 2D), energies, momentum, mass times position.
-template <int dim>
-struct SolidTotals {
-  double volume = 0, reference_volume = 0, elastic_energy = 0, kinetic_energy = 0;
-  Vec<double, dim> momentum{};
-  DeformationReport deformation;
-};
-
-/// Nodal averages for output. Tensors hold 6 numbers per node: xx, yy, zz, xy, yz, xz (for a body of
-/// revolution x, y, z stand for r, z, theta); principal stresses and strains 3, largest first (eq. 30).
-struct SolidFields {
-  std::vector<double> cauchy, green_lagrange, principal, principal_strain, det_F;
-};
-
-/// Largest principal Cauchy stress and Green-Lagrange strain at each quadrature point (eq. 30), with the
-/// reference volume there.
-struct PrincipalSamples {
-  std::vector<VolumeSample> stress, strain;
-};
-
-/// What the loops over a body hand to their caller: R has dim numbers per node, K is made of dim x dim
-/// blocks, block (a, b) of nodes a, b from (a n + b) dim^2 on, everything row-major.
-using CellResidualSink = std::function<void(int cell, std::span<const double> R)>;
-using CellTangentSink = std::function<void(int cell, std::span<const double> R, std::span<const double> K)>;
-using FaceResidualSink = std::function<void(std::span<const int> nodes, std::span<const double> R)>;
-using FaceTangentSink =
-    std::function<void(std::span<const int> nodes, std::span<const double> R, std::span<const double> K)>;
-/// The same of a face, with the cell it belongs to.
-using LoadSink = std::function<void(int cell, std::span<const int> nodes, std::span<const double> R,
-                                    std::span<const double> K)>;
 
 /// A deformable body on its own mesh, which every rank holds whole; work is shared by lists of cells.
 /// \tparam Law a SolidLaw, \tparam Formulation Displacement or MeanDilatation, \tparam Coordinates Cartesian
@@ -85,6 +38,7 @@ class SolidBody {
   using Formulation = Formulation_;
   using Coordinates = Coordinates_;
   static constexpr int dim = Element::dim, n = Element::n_nodes, n_cell_dofs = n * dim;
+  static constexpr bool is_surface = false;
   using Parameters = SolidParameters<dim>;
 
   Parameters parameters;  ///< may change between steps (gravity in time, say)
@@ -101,6 +55,8 @@ class SolidBody {
   [[nodiscard]] int n_cells() const { return mesh_.n_cells(); }
 
   [[nodiscard]] std::vector<int> all_cells() const;
+  /// Appends which nodes each cell couples.
+  void list_cells(SolidCells& list, int first_node) const { list.append(mesh_.cells, first_node); }
   /// Number of a named boundary. \throws Error (configuration), with the nearest name, when there is none.
   [[nodiscard]] int boundary(const std::string& boundary_name) const {
     return find_name("boundary of solid '" + name_ + "'", boundary_name, mesh_.boundary_names);
@@ -129,6 +85,19 @@ class SolidBody {
   /// Dead traction (force per reference area) on the listed boundary faces; R = -force.
   void add_traction(const Vec<double, dim>& traction, std::span<const int> faces,
                     const FaceResidualSink& sink) const;
+  /// visit(nodes, area of each) for every face of the undeformed surface.
+  template <class Visit>
+  void for_each_face(Visit&& visit) const {
+    std::vector<int> faces(mesh_.boundary_faces.size());
+    std::iota(faces.begin(), faces.end(), 0);
+    Vec<double, dim> unit = Vec<double, dim>::zero();
+    unit[0] = -1.0;
+    add_traction(unit, faces, [&](std::span<const int> nodes, std::span<const double> R) {
+      std::vector<double> areas;
+      for (std::size_t a = 0; a < nodes.size(); ++a) areas.push_back(R[a * dim]);
+      visit(nodes, std::span<const double>(areas));
+    });
+  }
   /// Pressure that follows the surface (force per current area, inwards).
   void add_pressure(double pressure, std::span<const double> u, const StateSlopes& slopes,
                     std::span<const int> faces, const FaceTangentSink& sink) const;
@@ -158,13 +127,9 @@ class SolidBody {
  private:
   using T = Pack<lanes>;
   using Kernel = SolidCell<Element, Law, Formulation, Coordinates, Rule_, T>;
-  static constexpr int voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
-  /// The symmetric tensor of six numbers in that order.
-  template <class Entry>
-  static Mat<double, 3> symmetric(Entry&& entry) {
-    Mat<double, 3> S;
-    for (int s = 0; s < 6; ++s) S(voigt[s][0], voigt[s][1]) = S(voigt[s][1], voigt[s][0]) = entry(s);
-    return S;
+  /// Lane l of a symmetric tensor.
+  static Mat<double, 3> lane(const Mat<T, 3>& A, int l) {
+    return symmetric([&](int s) { return A(voigt[s][0], voigt[s][1])[l]; });
   }
 
   /// Cells worked on together; the last batch repeats its last cell in the lanes beyond n_cells.
@@ -271,7 +236,6 @@ class SolidBody {
     return x;
   }
 
-  void finish(SolidFields& f, const std::vector<double>& weight) const;
   void check_parameters() const;
   void check_mesh() const;
   [[noreturn]] void bad_cell(int c, const std::string& what) const;
@@ -419,30 +383,21 @@ void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_loads(double factor, std:
 
 template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
 SolidFields SolidBody<E, Law, Form, Coords, Rule, lanes>::fields(std::span<const double> u) const {
-  SolidFields f{std::vector<double>(6 * n_nodes()), std::vector<double>(6 * n_nodes()),
-                std::vector<double>(3 * n_nodes()), std::vector<double>(3 * n_nodes()),
-                std::vector<double>(n_nodes())};
-  std::vector<double> weight(n_nodes());
+  FieldAverage average(n_nodes());
   for_each_batch({u}, all_cells(), [&](const Kernel& kernel, const Batch& batch) {
     const auto sigma = kernel.cauchy_stresses();
     for (int q = 0; q < Rule::n; ++q) {
       const Mat<T, 3> strain = kernel.green_lagrange(q);
       const T J = det(kernel.deformation_gradient(q)), dV = kernel.reference_volume(q);
-      for (int l = 0; l < batch.n_cells; ++l)
-        for (int a = 0; a < n; ++a) {
-          const int node = mesh_.cells[batch.cell[l]][a];
-          const double w = std::abs(BasisTable<Element, Rule>::N[q][a]) * dV[l];
-          weight[node] += w;
-          f.det_F[node] += w * J[l];
-          for (int s = 0; s < 6; ++s) {
-            f.cauchy[6 * node + s] += w * sigma[q](voigt[s][0], voigt[s][1])[l];
-            f.green_lagrange[6 * node + s] += w * strain(voigt[s][0], voigt[s][1])[l];
-          }
-        }
+      for (int l = 0; l < batch.n_cells; ++l) {
+        const Mat<double, 3> sigma_l = lane(sigma[q], l), strain_l = lane(strain, l);
+        for (int a = 0; a < n; ++a)
+          average.add(mesh_.cells[batch.cell[l]][a], std::abs(BasisTable<Element, Rule>::N[q][a]) * dV[l],
+                      sigma_l, strain_l, J[l]);
+      }
     }
   });
-  finish(f, weight);
-  return f;
+  return average.fields();
 }
 
 template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
@@ -453,13 +408,7 @@ void SolidBody<E, Law, Form, Coords, Rule, lanes>::add_principal_samples(std::sp
     for (int q = 0; q < Rule::n; ++q) {
       const Mat<T, 3> strain = kernel.green_lagrange(q);
       const T dV = kernel.reference_volume(q);
-      const auto largest = [](const Mat<T, 3>& A, int l) {
-        return principal_values(symmetric([&](int s) { return A(voigt[s][0], voigt[s][1])[l]; }))[0];
-      };
-      for (int l = 0; l < batch.n_cells; ++l) {
-        samples.stress.push_back({largest(sigma[q], l), dV[l]});
-        samples.strain.push_back({largest(strain, l), dV[l]});
-      }
+      for (int l = 0; l < batch.n_cells; ++l) samples.add(lane(sigma[q], l), lane(strain, l), dV[l]);
     }
   });
 }
@@ -480,21 +429,6 @@ auto SolidBody<E, Law, Form, Coords, Rule, lanes>::gather(const Batch& batch, co
       }
     }
   return data;
-}
-
-template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>
-void SolidBody<E, Law, Form, Coords, Rule, lanes>::finish(SolidFields& f,
-                                                          const std::vector<double>& weight) const {
-  for (int a = 0; a < n_nodes(); ++a) {
-    if (weight[a] == 0) continue;
-    f.det_F[a] /= weight[a];
-    for (int s = 6 * a; s < 6 * (a + 1); ++s) f.green_lagrange[s] /= weight[a], f.cauchy[s] /= weight[a];
-    const auto put_principal = [a](const std::vector<double>& tensors, std::vector<double>& values) {
-      const auto v = principal_values(symmetric([&](int s) { return tensors[6 * a + s]; }));
-      std::copy(v.begin(), v.end(), values.begin() + 3 * a);
-    };
-    put_principal(f.cauchy, f.principal), put_principal(f.green_lagrange, f.principal_strain);
-  }
 }
 
 template <ReferenceElement E, SolidLaw Law, class Form, class Coords, class Rule, int lanes>

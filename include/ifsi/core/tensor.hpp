@@ -195,6 +195,29 @@ constexpr T det(const Mat<T, n>& a) {
   }
 }
 
+template <class T>
+constexpr Vec<T, 3> cross(const Vec<T, 3>& a, const Vec<T, 3>& b) {
+  return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
+}
+
+/// det(a) a^-T, also where a is singular.
+template <class T, int n>
+constexpr Mat<T, n> cofactor(const Mat<T, n>& a) {
+  static_assert(n == 2 || n == 3);
+  if constexpr (n == 2) {
+    return {a(1, 1), T(-a(1, 0)), T(-a(0, 1)), a(0, 0)};
+  } else {
+    Mat<T, n> c;
+    IFSI_UNROLL
+    for (int i = 0; i < 3; ++i) IFSI_UNROLL
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      c(i, j) = a(i1, j1) * a(i2, j2) - a(i1, j2) * a(i2, j1);
+    }
+    return c;
+  }
+}
+
 /// Inverse by cofactors; the caller knows that det(a) != 0.
 template <class T, int n>
 constexpr Mat<T, n> inverse(const Mat<T, n>& a) {

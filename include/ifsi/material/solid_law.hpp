@@ -31,6 +31,14 @@ concept SolidLaw = detail::SolidLawIn<L, 2, 2> && detail::SolidLawIn<L, 3, 3> &&
   { law.young_modulus() } -> std::same_as<double>;
 };
 
+/// A law of a surface in space, asked with its unit normal N: see PlaneStress.
+///   relaxed        F in the plane, with the director that N turns into
+template <class L>
+concept SurfaceLaw = requires(const L& law, const Mat<double, 3>& F, const Vec<double, 3>& X) {
+  { law.relaxed(F, X, X) } -> std::same_as<Mat<double, 3>>;
+  { law.young_modulus() } -> std::same_as<double>;
+};
+
 /// A law whose energy is an isochoric part, which sees J^(-1/3) F only, plus a volumetric part U(J).
 /// Mean dilatation then replaces U(J) by U(theta) and leaves the rest alone.
 template <class L>

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "ifsi/material/moduli.hpp"
+#include "ifsi/material/plane_stress.hpp"
 #include "ifsi/material/solid_law.hpp"
 
 namespace ifsi {
@@ -28,7 +29,7 @@ class ThinSheet {
   /// \param shear, kappa stresses; of the order of 1/20 and 1/3 of Young's modulus
   /// \throws Error (configuration) unless both are positive and |normal| = 1
   ThinSheet(Law law, Vec<double, 3> normal, double shear, double kappa)
-      : law_(law),
+      : plane_(law),
         normal_(normal),
         shear_(positive_modulus("shear stiffness of a thin sheet", shear)),
         kappa_(positive_modulus("kappa of a thin sheet", kappa)) {
@@ -49,7 +50,7 @@ class ThinSheet {
   Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X) const {
     return tangent(F, X, normal<T, n>());
   }
-  [[nodiscard]] double young_modulus() const { return law_.young_modulus(); }
+  [[nodiscard]] double young_modulus() const { return plane_.young_modulus(); }
 
   // The same where the sheet is curved and the caller knows its unit normal N at X.
   template <class T, int n, int dim>
@@ -57,20 +58,20 @@ class ThinSheet {
     using std::log;
     const Vec<T, n> g = shear_strain(F, N);
     const T J = det(F);
-    return T(law_.psi(relaxed(F, X, N), X) + 0.5 * shear_ * dot(g, g) +
+    return T(plane_.psi(plane_.relaxed(F, X, N), X, N) + 0.5 * shear_ * dot(g, g) +
              0.25 * kappa_ * (J * J - 1.0 - 2.0 * log(J)));
   }
   template <class T, int n, int dim>
   Mat<T, n> first_piola(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
     const Vec<T, n> g = shear_strain(F, N);
     const T J = det(F);
-    return law_.first_piola(relaxed(F, X, N), X) * in_plane(N) +
+    return plane_.first_piola(plane_.relaxed(F, X, N), X, N) +
            T(shear_) * (outer(F * N, g) + outer(F * g, N)) +
            T(0.5 * kappa_ * (J * J - 1.0)) * transpose(inverse(F));
   }
   template <class T, int n, int dim>
   Tangent<T, n> tangent(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
-    Tangent<T, n> A = membrane_tangent(F, X, N);
+    Tangent<T, n> A = plane_.tangent(plane_.relaxed(F, X, N), X, N);
     add_shear(F, N, A);
     const T J = det(F), k_2 = kappa_ * J * J, k_1 = 0.5 * kappa_ * (J * J - 1.0);
     const Mat<T, n> G = transpose(inverse(F));
@@ -86,75 +87,17 @@ class ThinSheet {
     for (int i = 0; i < n; ++i) N[i] = T(normal_[i]);
     return N;
   }
-  /// Q.
-  template <class T, int n>
-  [[nodiscard]] static Mat<T, n> in_plane(const Vec<T, n>& N) {
-    return Mat<T, n>::identity() - outer(N, N);
-  }
   /// Q F^T F N, twice the Green-Lagrange shear strains between the sheet's plane and its normal.
   template <class T, int n>
   [[nodiscard]] static Vec<T, n> shear_strain(const Mat<T, n>& F, const Vec<T, n>& N) {
-    return in_plane(N) * (transpose(F) * (F * N));
+    return PlaneStress<Law>::in_plane(N) * (transpose(F) * (F * N));
   }
 
-  /// F Q + d (x) N with the director of least energy, by Newton's method from the unit normal.
-  template <class T, int n, int dim>
-  [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
-    using std::min, std::sqrt;
-    const Mat<T, n> F_Q = F * in_plane(N);
-    Vec<T, n> d = transpose(inverse(F)) * N;
-    d = T(1.0 / sqrt(dot(d, d))) * d;
-    constexpr int iterations = 10;  // quadratic: round-off after 4 at strains of 10 %
-    for (int k = 0; k < iterations; ++k) {
-      const Mat<T, n> F_d = F_Q + outer(d, N);
-      const Vec<T, n> step =
-          inverse(normal_stiffness(law_.tangent(F_d, X), N)) * (law_.first_piola(F_d, X) * N);
-      // By half of its length at most, so that no stretch of the plane turns the sheet inside out.
-      const T part = min(T(1.0), T(0.5 * sqrt(dot(d, d) / (dot(step, step) + 1e-300))));
-      d = d - part * step;
-    }
-    return F_Q + outer(d, N);
-  }
-  /// A_iMkL N_M N_L.
-  template <class T, int n>
-  [[nodiscard]] static Mat<T, n> normal_stiffness(const Tangent<T, n>& A, const Vec<T, n>& N) {
-    Mat<T, n> K = Mat<T, n>::zero();
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < n; ++k)
-        for (int M = 0; M < n; ++M)
-          for (int L = 0; L < n; ++L) K(i, k) += T(N[M] * N[L]) * A(i * n + M, k * n + L);
-    return K;
-  }
-
-  /// The law's tangent in the plane, less what the director yields: A_QQ - A_QN (A_NN)^-1 A_NQ.
-  template <class T, int n, int dim>
-  [[nodiscard]] Tangent<T, n> membrane_tangent(const Mat<T, n>& F, const Vec<T, dim>& X,
-                                               const Vec<T, n>& N) const {
-    const Tangent<T, n> A = law_.tangent(relaxed(F, X, N), X);
-    const Mat<T, n> Q = in_plane(N), K_inverse = inverse(normal_stiffness(A, N));
-    std::array<Mat<T, n>, n> A_N;  // per k: A_iMkL N_L, M in the plane
-    for (int k = 0; k < n; ++k) {
-      A_N[k] = Mat<T, n>::zero();
-      for (int i = 0; i < n; ++i)
-        for (int M = 0; M < n; ++M)
-          for (int L = 0; L < n; ++L) A_N[k](i, M) += N[L] * A(i * n + M, k * n + L);
-      A_N[k] = A_N[k] * Q;
-    }
-    return tangent_from<T, n>([&](int i, int M, int k, int L) {
-      T a = T(0.0);
-      for (int P = 0; P < n; ++P)
-        for (int R = 0; R < n; ++R) {
-          a += A(i * n + P, k * n + R) * Q(P, M) * Q(R, L);
-          a -= A_N[P](i, M) * K_inverse(P, R) * A_N[R](k, L);
-        }
-      return a;
-    });
-  }
   /// Of shear / 2 |g|^2, g = Q F^T F N.
   template <class T, int n>
   void add_shear(const Mat<T, n>& F, const Vec<T, n>& N, Tangent<T, n>& A) const {
     const Vec<T, n> f = F * N, g = shear_strain(F, N);
-    const Mat<T, n> Q = in_plane(N), F_Q = F * Q;
+    const Mat<T, n> Q = PlaneStress<Law>::in_plane(N), F_Q = F * Q;
     for (int i = 0; i < n; ++i)
       for (int M = 0; M < n; ++M)
         for (int k = 0; k < n; ++k)
@@ -167,7 +110,7 @@ class ThinSheet {
           }
   }
 
-  Law law_;
+  PlaneStress<Law> plane_;
   Vec<double, 3> normal_;
   double shear_, kappa_;
 };

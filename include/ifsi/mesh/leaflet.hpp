@@ -7,10 +7,12 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ifsi/mesh/aortic_root.hpp"
 #include "ifsi/mesh/box.hpp"
+#include "ifsi/mesh/surface_mesh.hpp"
 
 namespace ifsi {
 
@@ -123,45 +125,93 @@ class LeafletSurface {
       evenness_;  ///< of the nodes along b: the parabola of the middle is as fast at its end as at its start
 };
 
-/// A leaflet as a mesh, and its lines b = constant on the side of the ventricle, from attachment to free
-/// edge: nodes in order of a.
-template <class Element>
+/// A leaflet as a mesh, and its lines b = constant from attachment to free edge: nodes in order of a.
+template <class Mesh>
 struct LeafletMesh {
-  GlobalMesh<Element> mesh;
+  Mesh mesh;
   std::vector<std::vector<int>> lines;
 };
 
-/// The leaflet whose mid-leaflet plane is at `angle`, or the half of it at a >= 0, whose cut a = 0 lies
-/// exactly in the plane y = 0. Neighbouring nodes are at most `spacing` apart. Boundaries cut (halves only),
-/// commissure, attachment, free_edge, ventricle, aorta. Throws Error(configuration).
+/// The numbers of cells along a and b that keep neighbouring nodes `spacing` apart, and where a leaflet whose
+/// mid-leaflet plane is at `angle` has them. Half of one is its part at a >= 0, whose cut a = 0 lies exactly
+/// in that plane.
+class LeafletLattice {
+ public:
+  /// \param order of the cells. \throws Error (configuration) as LeafletSurface
+  LeafletLattice(const AorticRoot& root, const Leaflet& leaflet, double spacing, int order, bool half,
+                 double angle)
+      : surface_(root, leaflet),
+        thickness_(leaflet.thickness),
+        order_(order),
+        half_(half),
+        cosine_(std::cos(angle)),
+        sine_(std::sin(angle)) {
+    const auto extent = surface_.extent();
+    for (int d = 0; d < 2; ++d)
+      cells_[d] = std::max(2, static_cast<int>(std::ceil(extent[d] / (order * spacing))));
+    if (!half) cells_[0] *= 2;
+  }
+  [[nodiscard]] std::array<int, 2> cells() const { return cells_; }
+  [[nodiscard]] double a_first() const { return half_ ? 0.0 : -1.0; }
+  /// c from -1/2 on the side of the ventricle to 1/2 on that of the aorta.
+  [[nodiscard]] Vec<double, 3> at(double a, double b, double c) const {
+    const auto y = surface_.at(a, b) + thickness_ * c * surface_.normal(a, b);
+    return {cosine_ * y[0] - sine_ * y[1], sine_ * y[0] + cosine_ * y[1], y[2]};
+  }
+  /// Those of the points (a, b, ..) that `on_lines` lets pass.
+  template <int dim, class Filter>
+  [[nodiscard]] std::vector<std::vector<int>> lines(const std::vector<Vec<double, dim>>& points,
+                                                    Filter&& on_lines) const {
+    const int n_b = order_ * cells_[1];
+    std::vector<std::vector<int>> lines(n_b + 1);
+    for (int p = 0; p < static_cast<int>(points.size()); ++p)
+      if (on_lines(points[p])) lines[static_cast<int>(std::lround(n_b * points[p][1]))].push_back(p);
+    for (auto& line : lines)
+      std::sort(line.begin(), line.end(), [&](int p, int q) { return points[p][0] < points[q][0]; });
+    return lines;
+  }
+
+ private:
+  LeafletSurface surface_;
+  double thickness_;
+  int order_;
+  bool half_;
+  double cosine_, sine_;
+  std::array<int, 2> cells_{};
+};
+
+/// A leaflet as a volume, or half of it. Boundaries cut (halves only), commissure, attachment, free_edge,
+/// ventricle, aorta; lines on the side of the ventricle. Throws Error(configuration).
 template <class Element>
-LeafletMesh<Element> leaflet_mesh(const AorticRoot& root, const Leaflet& leaflet, double spacing, int layers,
-                                  bool half, double angle = 0.0) {
-  const LeafletSurface surface(root, leaflet);
-  const auto extent = surface.extent();
-  const auto cells = [&](double length) {
-    return std::max(2, static_cast<int>(std::ceil(length / (Element::order * spacing))));
-  };
-  const int n_a = cells(extent[0]);
-  LeafletMesh<Element> result;
-  auto& mesh = result.mesh;
-  mesh = box<Element>({half ? 0.0 : -1.0, 0.0, -0.5}, {1.0, 1.0, 0.5},
-                      {half ? n_a : 2 * n_a, cells(extent[1]), layers});
+LeafletMesh<GlobalMesh<Element>> leaflet_mesh(const AorticRoot& root, const Leaflet& leaflet, double spacing,
+                                              int layers, bool half, double angle = 0.0) {
+  const LeafletLattice lattice(root, leaflet, spacing, Element::order, half, angle);
+  const auto [n_a, n_b] = lattice.cells();
+  auto mesh = box<Element>({lattice.a_first(), 0.0, -0.5}, {1.0, 1.0, 0.5}, {n_a, n_b, layers});
   mesh.boundary_names = {
       half ? "cut" : "commissure_2", "commissure", "attachment", "free_edge", "ventricle", "aorta"};
-  const int n_b = Element::order * cells(extent[1]);
-  result.lines.resize(n_b + 1);
-  for (int p = 0; p < mesh.n_points(); ++p)
-    if (mesh.points[p][2] < -0.5 + 1e-9)
-      result.lines[static_cast<int>(std::lround(n_b * mesh.points[p][1]))].push_back(p);
-  for (auto& line : result.lines)
-    std::sort(line.begin(), line.end(), [&](int p, int q) { return mesh.points[p][0] < mesh.points[q][0]; });
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  for (auto& x : mesh.points) {
-    const double a = x[0], b = x[1];
-    const auto y = surface.at(a, b) + leaflet.thickness * x[2] * surface.normal(a, b);
-    x = {cosine * y[0] - sine * y[1], sine * y[0] + cosine * y[1], y[2]};
-  }
+  auto lines = lattice.lines(mesh.points, [](const auto& x) { return x[2] < -0.5 + 1e-9; });
+  for (auto& x : mesh.points) x = lattice.at(x[0], x[1], x[2]);
+  return {std::move(mesh), std::move(lines)};
+}
+
+/// The surface in the middle of a leaflet, or half of it, with the crosses of its lines; those on its edges
+/// have none. Throws Error(configuration).
+template <class Element>
+LeafletMesh<SurfaceMesh<Element>> leaflet_membrane(const AorticRoot& root, const Leaflet& leaflet,
+                                                   double spacing, bool half, double angle = 0.0) {
+  const LeafletLattice lattice(root, leaflet, spacing, Element::order, half, angle);
+  const auto [n_a, n_b] = lattice.cells();
+  const auto flat = box<Element>({lattice.a_first(), 0.0}, {1.0, 1.0}, {n_a, n_b});
+  LeafletMesh<SurfaceMesh<Element>> result;
+  result.lines = lattice.lines(flat.points, [](const auto&) { return true; });
+  result.mesh.cells = flat.cells;
+  for (const auto& x : flat.points) result.mesh.points.push_back(lattice.at(x[0], x[1], 0.0));
+  const auto& lines = result.lines;
+  for (std::size_t j = 1; j + 1 < lines.size(); ++j)
+    for (std::size_t i = 1; i + 1 < lines[j].size(); ++i)
+      result.mesh.crosses.push_back(
+          {lines[j][i], lines[j][i - 1], lines[j][i + 1], lines[j - 1][i], lines[j + 1][i]});
   return result;
 }
 

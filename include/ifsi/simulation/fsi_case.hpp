@@ -69,7 +69,7 @@ struct LeafletOptions {
 template <class Body>
 [[nodiscard]] VtuPiece solid_piece(const ImmersedSolids<Body>& solids, bool root) {
   using Element = typename Body::Element;
-  constexpr int dim = Element::dim;
+  constexpr int dim = Body::dim;
   VtuPiece piece;
   VtuField velocity{"velocity", "length/time", 3, {}}, det_F{"det_F", "-", 1, {}},
       stress{"principal_stress_1", "force/area", 1, {}}, strain{"principal_strain_1", "-", 1, {}};

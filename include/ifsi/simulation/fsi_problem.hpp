@@ -103,7 +103,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
         K_s_(C_, solids_.cells()),
         patched_(patched_options(),
                  [this] { return this->system_.schur_parts(this->fields(), this->fluid_); }) {
-    refuse_overlap(solids_.bodies());
+    if constexpr (!Body::is_surface) refuse_overlap(solids_.bodies());
     C_.locate(solids_.positions());
     if (!may_protrude) C_.require_all_found("solid nodes");
     n_held_ = C_.lost().size();
@@ -309,7 +309,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
 
   void set_tie() {
     require_frozen("coupling.tie", fsi_.tie);
-    if constexpr (is_tensor_cell<typename Body::Element> && !Body::Coordinates::axisymmetric) {
+    if constexpr (is_tensor_cell<typename Body::Element> && !Body::is_surface &&
+                  !Body::Coordinates::axisymmetric) {
       SolidTie<Flow::dim> tie(fsi_.tie_spacing, fsi_.tie);
       for (std::size_t b = 0; b < solids_.bodies().size(); ++b)
         tie.template add_body<typename Body::Element>(C_, solids_.bodies()[b].mesh().cells,
@@ -317,8 +318,8 @@ class FsiProblem : public FlowProblem<Element, Model> {
       if (tie.n_points() > 0) solids_.set_tie(std::move(tie));
     } else {
       throw Error(ExitCode::configuration, "coupling.tie = " + std::to_string(fsi_.tie) +
-                                               ", expected 0: only solids of quads or hexes can be tied, and "
-                                               "no bodies of revolution");
+                                               ", expected 0: only solids of quads or hexes can be tied, no "
+                                               "membranes and no bodies of revolution");
     }
   }
 

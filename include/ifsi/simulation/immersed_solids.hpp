@@ -31,7 +31,7 @@ class ImmersedSolids {
     for (const Body& body : bodies_) {
       first_node_.push_back(static_cast<int>(X_.size()));
       first_cell_.push_back(cells_.size());
-      cells_.append(body.mesh().cells, first_node_.back());
+      body.list_cells(cells_, first_node_.back());
       X_.insert(X_.end(), body.mesh().points.begin(), body.mesh().points.end());
     }
     n_body_cells_ = first_link_ = first_tie_ = cells_.size();
@@ -222,7 +222,7 @@ class ImmersedSolids {
       else
         report = bodies_[b].residual(state, list, add_residual);
       if (report.cell >= 0) worst.merge(report.min_det_F, first_cell_[b] + report.cell);
-      add_loads(static_cast<int>(b), list, offset, R, tangent, matrix);
+      if constexpr (!Body::is_surface) add_loads(static_cast<int>(b), list, offset, R, tangent, matrix);
     }
     if (contact_) add_contact(cells, R, tangent, matrix);
     if (seal_) add_seal(cells, R, tangent, matrix);
@@ -379,19 +379,12 @@ class ImmersedSolids {
   /// Calls visit(body, nodes, area of each) for the faces of all surfaces.
   template <class Visit>
   void for_each_face(Visit&& visit) const {
-    auto unit = Point::zero();
-    unit[0] = 1.0;
-    for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
-      std::vector<int> faces(bodies_[b].mesh().boundary_faces.size());
-      std::iota(faces.begin(), faces.end(), 0);
-      bodies_[b].add_traction(unit, faces, [&](std::span<const int> of_body, std::span<const double> R) {
+    for (int b = 0; b < static_cast<int>(bodies_.size()); ++b)
+      bodies_[b].for_each_face([&](std::span<const int> of_body, std::span<const double> areas) {
         std::vector<int> nodes(of_body.begin(), of_body.end());
-        std::vector<double> areas;
-        for (std::size_t a = 0; a < nodes.size(); ++a)
-          nodes[a] += first_node_[b], areas.push_back(-R[a * dim]);
-        visit(b, std::span<const int>(nodes), std::span<const double>(areas));
+        for (int& a : nodes) a += first_node_[b];
+        visit(b, std::span<const int>(nodes), areas);
       });
-    }
   }
 
   /// Points further apart than the range would let each other through.

@@ -17,6 +17,9 @@ struct LawChoice {
   void declare(Parameters& params) {
     params.add_choice("solid.law", law, {"volume", "sheet"},
                       "the material as a volume, or its plane stress in a thin sheet");
+    declare_sheet(params);
+  }
+  void declare_sheet(Parameters& params) {
     params.add("solid.sheet_shear", shear, "E", "stiffness of a sheet against transverse shear", {1e-6, 1.0});
     params.add("solid.sheet_kappa", kappa, "E", "stiffness of a sheet against change of volume", {1e-6, 1e3});
   }

@@ -18,14 +18,14 @@ struct ValveOptions {
   static constexpr double z_inlet = -4.0;
 
   std::string model = "sector", element = "tet1", drive = "pressure", curve;
-  LawChoice law{"sheet", 0.01, 1.0};
+  LawChoice law{"membrane", 0.01, 1.0};
   AorticRoot root;
   Leaflet leaflet;
   double downstream = 11.8, angle = 60.0, h = 0.35, h_valve = 0.12, growth = 0.2, wall_ratio = 0.7;
   double spacing = 0.5, protrusion_max = 0.08;
   int layers = 1;
-  double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 1.5e6, nu = 0.4, backflow = 1.0;
-  double fibres = 1e7, fibres_stiffening = 0.0;
+  double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 3e5, nu = 0.4, backflow = 1.0;
+  double fibres = 3e7, fibres_across = 3e6, fibres_stiffening = 0.0, bending = 15.0;
   double z_before = -1.0, z_behind = 5.0, picture_every = 0.02;
   TimeOptions time;
   FlowOptions flow;
@@ -69,9 +69,14 @@ struct ValveOptions {
     params.add("solid.nu", nu, "-", "Poisson's ratio", {-0.99, 0.4999});
     params.add("solid.fibres", fibres, "dyn/cm^2", "modulus of fibres between the commissures (eq. 43)",
                non_negative);
+    params.add("solid.fibres_across", fibres_across, "dyn/cm^2",
+               "modulus of fibres at right angles to them, membranes and sheets", non_negative);
     params.add("solid.fibres_stiffening", fibres_stiffening, "-",
                "their stress grows by exp(this strain^2) (eq. 43)", non_negative);
-    law.declare(params);
+    params.add("solid.bending", bending, "dyn cm", "bending stiffness of membranes (eq. 46)", non_negative);
+    params.add_choice("solid.law", law.law, {"membrane", "sheet", "volume"},
+                      "leaflets of one layer of nodes, or of a thickness, in plane stress or not");
+    law.declare_sheet(params);
     params.add("fluid.rho", rho_f, "g/cm^3", "density of the blood", positive);
     params.add("fluid.mu", mu, "P", "viscosity of the blood", positive);
     params.add_choice("inlet.drive", drive, {"flow", "pressure"}, "what is prescribed at the inlet");

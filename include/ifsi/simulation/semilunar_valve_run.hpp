@@ -5,8 +5,11 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "ifsi/assembly/membrane_body.hpp"
 #include "ifsi/assembly/section.hpp"
 #include "ifsi/io/run_gmsh.hpp"
 #include "ifsi/mesh/elevate.hpp"
@@ -187,10 +190,29 @@ void check_protrusion(Run& run, const Problem& problem, double allowed) {
   run.metric("protrusion_max", deepest, "cm");
 }
 
-/// \tparam Formulation Displacement, or Sheet with a law of thin sheets.
-template <class FluidElement, class SolidElement, class Formulation, class Law>
-void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& data, const Law& law) {
-  using Body = SolidBody<SolidElement, Law, Formulation>;
+/// The leaflets of a valve, and their lines.
+template <class Body>
+struct ValveLeaflets {
+  std::vector<Body> bodies;
+  std::vector<std::vector<std::vector<int>>> lines;
+};
+
+/// \param make name, spacing of the nodes and angle to a body and its lines
+template <class FluidElement, class Make>
+auto valve_leaflets(const ValveOptions& o, Make&& make) {
+  using Body = decltype(make(std::string(), 0.0, 0.0).first);
+  ValveLeaflets<Body> leaflets;
+  for (int k = 0; k < (o.is_sector() ? 1 : 3); ++k) {
+    auto [body, lines] = make("leaflet " + std::to_string(k + 1), o.spacing * o.h_valve / FluidElement::order,
+                              k * AorticRoot::third);
+    leaflets.bodies.push_back(std::move(body)), leaflets.lines.push_back(std::move(lines));
+  }
+  return leaflets;
+}
+
+template <class FluidElement, class Body>
+void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& data,
+                         ValveLeaflets<Body> leaflets) {
   using Problem = FsiProblem<FluidElement, Body>;
   const FlowCurve curve(o.curve_file(data));
   if (curve.begin() > 0.0 || curve.end() < o.time.end)
@@ -198,24 +220,14 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
                                              std::to_string(curve.end()) +
                                              " s; expected 0 to time.end = " + std::to_string(o.time.end));
   const auto mesh = distribute(vessel_mesh<FluidElement>(run, o, data + "/geometry/vessel.geo"), run.comm());
-  const SolidParameters<3> solid{
-      .rho_s = o.rho_s, .rho_f = o.rho_f, .mu_f = o.mu, .mu_s = 0.0, .gravity = {}};
-  std::vector<Body> leaflets;
-  std::vector<std::vector<std::vector<int>>> lines;
-  for (int k = 0; k < (o.is_sector() ? 1 : 3); ++k) {
-    auto leaflet = leaflet_mesh<SolidElement>(o.root, o.leaflet, o.spacing * o.h_valve / FluidElement::order,
-                                              o.layers, o.is_sector(), k * AorticRoot::third);
-    leaflets.emplace_back("leaflet " + std::to_string(k + 1), std::move(leaflet.mesh), law, solid);
-    lines.push_back(std::move(leaflet.lines));
-  }
   constexpr bool may_protrude = true;
   Problem problem(mesh, valve_boundary(o, curve, o.copies() * plug_area(mesh)), o.rho_f, Newtonian{o.mu},
-                  std::move(leaflets), o.flow, o.fsi, may_protrude);
+                  std::move(leaflets.bodies), o.flow, o.fsi, may_protrude);
   check_protrusion(run, problem, o.protrusion_max);
   if (o.fsi.seal > 0.0 && o.is_sector()) problem.add_seal_mirror(commissure_plane());
   if (o.fsi.contact_range > 0.0 && o.is_sector()) problem.add_contact_plane(commissure_plane());
   attach(run, problem);
-  ValveHistory<FluidElement, Problem> history(run, problem, o, std::move(lines));
+  ValveHistory<FluidElement, Problem> history(run, problem, o, std::move(leaflets.lines));
   march(run, problem, o.time, [&](double dt) { history.observe(dt); });
   history.report_all();
 }
@@ -224,13 +236,31 @@ void run_semilunar_valve(Run& run, const ValveOptions& o, const std::string& dat
 template <class FluidElement>
 void run_semilunar_valve_in(Run& run, const ValveOptions& o, const std::string& data) {
   const NeoHookean law(Lame::from_young(o.E, o.nu));
+  const SolidParameters<3> solid{
+      .rho_s = o.rho_s, .rho_f = o.rho_f, .mu_f = o.mu, .mu_s = 0.0, .gravity = {}};
   const Vec<double, 3> unused = {0.0, 0.0, 1.0};  // each point has its own directions
   const auto with_fibres = [&](const auto& matrix) {
-    return TensionFibres(matrix, o.fibres, unused, o.fibres_stiffening);
+    return TensionFibres(matrix, o.fibres, unused, o.fibres_stiffening, o.fibres_across);
   };
-  if (!o.law.is_sheet())
-    return run_semilunar_valve<FluidElement, Hex2, Fibred>(run, o, data, with_fibres(law));
-  run_semilunar_valve<FluidElement, Hex2, FibredSheet>(run, o, data, with_fibres(o.law.sheet(law, unused)));
+  const auto run_with = [&](auto&& make) {
+    run_semilunar_valve<FluidElement>(run, o, data, valve_leaflets<FluidElement>(o, make));
+  };
+  const auto run_volumes = [&]<class Formulation>(const auto& fibred) {
+    using Body = SolidBody<Hex2, std::remove_cvref_t<decltype(fibred)>, Formulation>;
+    run_with([&](const std::string& name, double spacing, double angle) {
+      auto l = leaflet_mesh<Hex2>(o.root, o.leaflet, spacing, o.layers, o.is_sector(), angle);
+      return std::pair(Body(name, std::move(l.mesh), fibred, solid), std::move(l.lines));
+    });
+  };
+  if (o.law.law == "volume") return run_volumes.template operator()<Fibred>(with_fibres(law));
+  if (o.law.is_sheet())
+    return run_volumes.template operator()<FibredSheet>(with_fibres(o.law.sheet(law, unused)));
+  const auto membrane = with_fibres(PlaneStress(law));
+  run_with([&](const std::string& name, double spacing, double angle) {
+    auto l = leaflet_membrane<Quad2>(o.root, o.leaflet, spacing, o.is_sector(), angle);
+    return std::pair(MembraneBody(name, std::move(l.mesh), membrane, solid, o.leaflet.thickness, o.bending),
+                     std::move(l.lines));
+  });
 }
 
 extern template void run_semilunar_valve_in<Tet1>(Run&, const ValveOptions&, const std::string&);

@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// A surface in space, as the mesh of a membrane.
+
+#include <array>
+#include <vector>
+
+#include "ifsi/core/tensor.hpp"
+#include "ifsi/element/element.hpp"
+
+namespace ifsi {
+
+/// Cells of one element of two dimensions whose points lie in space, replicated on every rank.
+template <class Element>
+struct SurfaceMesh {
+  /// A node and its neighbours, before and behind it along either family of lines.
+  using Cross = std::array<int, 5>;
+
+  std::vector<Vec<double, 3>> points;
+  std::vector<std::array<int, Element::n_nodes>> cells;  ///< point indices, in the element's node order
+  std::vector<Cross> crosses;                            ///< where lines of nodes cross: what resists bending
+
+  [[nodiscard]] int n_points() const { return static_cast<int>(points.size()); }
+  [[nodiscard]] int n_cells() const { return static_cast<int>(cells.size()); }
+};
+
+}  // namespace ifsi
