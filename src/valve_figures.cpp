@@ -51,11 +51,19 @@ void ValveCurves::find_volumes(Figures& f) const {
   for (std::size_t k = 1; k < samples_.size(); ++k) {
     const Sample &a = samples_[k - 1], &b = samples_[k];
     passed += 0.5 * (b.t - a.t) * (a.flow + b.flow);
-    if (passed >= f.forward) f.forward = passed, stopped = false, at_stop = passed;
+    if (passed >= f.forward) f.forward = passed, f.t_turn = b.t, stopped = false, at_stop = passed;
     if (!stopped && b.flow < 0.0) at_stop = std::min(at_stop, passed);
     stopped = stopped || (b.flow >= 0.0 && at_stop < f.forward);
   }
   f.closing = f.forward - at_stop, f.leak = at_stop - passed;
+}
+
+/// Fastest while blood goes forward, and after it has turned.
+void ValveCurves::find_jets(Figures& f) const {
+  for (const Sample& s : samples_) {
+    double& jet = s.t <= f.t_turn ? f.jet_peak : f.jet_closing;
+    jet = std::max(jet, s.speed);
+  }
 }
 
 ValveCurves::Figures ValveCurves::figures(double rho) const {
@@ -63,12 +71,12 @@ ValveCurves::Figures ValveCurves::figures(double rho) const {
   if (samples_.empty()) return f;
   f.goa_rest = samples_.front().area, f.goa_end = samples_.back().area;
   for (const Sample& s : samples_) {
-    f.goa_max = std::max(f.goa_max, s.area), f.jet_peak = std::max(f.jet_peak, s.speed);
+    f.goa_max = std::max(f.goa_max, s.area);
     f.drop_peak = std::max(f.drop_peak, s.pressure_drop), f.s1_p99 = std::max(f.s1_p99, s.stress);
     f.det_F_min = std::min(f.det_F_min, s.det_F);
     f.volume_change = std::max(f.volume_change, std::abs(s.volume_change));
   }
-  find_opening(f), find_volumes(f);
+  find_opening(f), find_volumes(f), find_jets(f);
   double time = 0.0, drop = 0.0, square = 0.0;  // while blood goes forward against a positive difference
   for (std::size_t k = 1; k < samples_.size(); ++k) {
     const Sample& s = samples_[k];
@@ -86,7 +94,8 @@ void report(Run& run, const ValveCurves::Figures& f, bool whole_beat) {
   run.metric("goa_rest", f.goa_rest, "cm^2"), run.metric("goa_max", f.goa_max, "cm^2");
   run.metric("goa_end", f.goa_end, "cm^2");
   run.metric("t_open", f.t_open, "s"), run.metric("t_close", f.t_close, "s");
-  run.metric("jet_peak", f.jet_peak, "cm/s");
+  run.metric("t_turn", f.t_turn, "s");
+  run.metric("jet_peak", f.jet_peak, "cm/s"), run.metric("jet_closing", f.jet_closing, "cm/s");
   run.metric("pressure_drop_mean", f.drop_mean / mmHg, "mmHg");
   run.metric("pressure_drop_peak", f.drop_peak / mmHg, "mmHg");
   run.metric("eoa", f.eoa, "cm^2");

@@ -44,15 +44,17 @@ TEST(ValveCurves, FiguresOfABeatInClosedForm) {
     const double t = static_cast<double>(k) / n, s = std::sin(std::numbers::pi * t / 0.5);
     // Forward, back while the valve closes, a swing forward, a leak.
     const double flow = t < 0.5 ? 100.0 * s : t < 0.6 ? -20.0 : t < 0.65 ? 6.0 : t < 0.8 ? -8.0 : 0.0;
-    curves.add({t, flow, t < 0.5 ? 1.0 + 2.0 * s : 1.0, 50.0 * std::abs(s), t < 0.5 ? 1000.0 : -5.0, 1e5 * t,
-                1.0 - 0.1 * s, -0.02 * t});
+    curves.add({t, flow, t < 0.5 ? 1.0 + 2.0 * s : 1.0, (t < 0.5 ? 50.0 : 70.0) * std::abs(s),
+                t < 0.5 ? 1000.0 : -5.0, 1e5 * t, 1.0 - 0.1 * s, -0.02 * t});
   }
   const auto f = curves.figures(1.1);
   EXPECT_EQ(f.goa_rest, 1.0);
   EXPECT_NEAR(f.goa_max, 3.0, 1e-6);
   EXPECT_NEAR(f.t_open, 0.5 / 6.0, 1e-4);  // the sine reaches a half at 30 degrees
   EXPECT_NEAR(f.t_close, 2.5 / 6.0, 1e-4);
+  EXPECT_NEAR(f.t_turn, 0.5, 1e-3);
   EXPECT_NEAR(f.jet_peak, 50.0, 1e-4);
+  EXPECT_NEAR(f.jet_closing, 70.0, 1e-4);
   EXPECT_NEAR(f.drop_mean, 1000.0, 1e-9);
   EXPECT_NEAR(f.drop_peak, 1000.0, 1e-12);
   EXPECT_NEAR(f.eoa, (100.0 / std::numbers::sqrt2) / std::sqrt(2.0 * 1000.0 / 1.1), 2e-3);

@@ -52,8 +52,8 @@ class ValveCurves {
   void read(const std::string& file, double t_end);
 
   struct Figures {
-    double goa_rest = 0.0, goa_max = 0.0, goa_end = 0.0, t_open = 0.0, t_close = 0.0;
-    double jet_peak = 0.0, drop_mean = 0.0, drop_peak = 0.0, eoa = 0.0;
+    double goa_rest = 0.0, goa_max = 0.0, goa_end = 0.0, t_open = 0.0, t_close = 0.0, t_turn = 0.0;
+    double jet_peak = 0.0, jet_closing = 0.0, drop_mean = 0.0, drop_peak = 0.0, eoa = 0.0;
     double forward = 0.0, closing = 0.0, leak = 0.0;
     double s1_p99 = 0.0, det_F_min = 1.0, volume_change = 0.0;
     [[nodiscard]] double regurgitant_fraction() const {
@@ -66,6 +66,7 @@ class ValveCurves {
  private:
   void find_opening(Figures& f) const;
   void find_volumes(Figures& f) const;
+  void find_jets(Figures& f) const;
 
   std::vector<Sample> samples_;
 };
