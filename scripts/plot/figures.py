@@ -3,6 +3,7 @@
 import matplotlib
 import numpy
 from matplotlib import pyplot
+from matplotlib.collections import LineCollection
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 import triangles
@@ -115,10 +116,15 @@ def plane_fields(grid):
     corners = triangles.plane(grid)
     if corners is not None and numpy.ptp(grid.points[:, 2]) == 0:
         return grid.points[:, :2], corners, grid.point_data
-    thin = int(numpy.argmin(numpy.ptp(grid.points, axis=0)))
-    middle = 0.5 * (grid.points[:, thin].min() + grid.points[:, thin].max())
+    thin, middle = middle_plane(grid)
     points, corners, data = triangles.section(grid, thin, middle)
     return numpy.delete(points, thin, axis=1), corners, data
+
+
+def middle_plane(grid):
+    """The axis along which a grid in space is thinnest, and the middle of it there."""
+    thin = int(numpy.argmin(numpy.ptp(grid.points, axis=0)))
+    return thin, 0.5 * (grid.points[:, thin].min() + grid.points[:, thin].max())
 
 
 def scalars(data):
@@ -147,8 +153,7 @@ def field(run, name="field", time=None, window=None, streamlines=False):
         return
     series = run.fields("fluid")
     points, corners, data = plane_fields(vtu.read(series[frame][1]))
-    solids = [plane_fields(vtu.read(run.fields(solid)[frame][1]))
-              for solid in run.solids() if len(run.fields(solid)) > frame]
+    solids = [vtu.read(run.fields(solid)[frame][1]) for solid in run.solids() if len(run.fields(solid)) > frame]
     window = window or (*extent(points[:, 0]), *extent(points[:, 1]))
     values = scalars(data)
     figure, axes = panels(len(values), window)
@@ -156,8 +161,8 @@ def field(run, name="field", time=None, window=None, streamlines=False):
         colour(figure, axis, Triangulation(points[:, 0], points[:, 1], corners), value, label, window)
         if streamlines and label == "speed":
             add_streamlines(axis, points, corners, data["velocity"], window)
-        for solid_points, solid_corners, _ in solids:
-            add_solid(axis, solid_points, solid_corners)
+        for solid in solids:
+            draw_solid(axis, solid)
     axes[0].set_title(run.case + (f", t = {series[frame][0]:.6g}" if len(series) > 1 else ""), fontsize=10)
     run.save(figure, name)
     pyplot.close(figure)
@@ -209,6 +214,19 @@ def add_streamlines(axis, points, corners, velocity, window, n=240):
     mesh = Triangulation(points[:, 0], points[:, 1], corners)
     u, v = (LinearTriInterpolator(mesh, velocity[:, k])(*numpy.meshgrid(x, y)) for k in (0, 1))
     axis.streamplot(x, y, u, v, color="white", linewidth=0.4, arrowsize=0.5, density=1.4)
+
+
+def draw_solid(axis, grid):
+    """A plane solid, or the middle section of one in space, membranes as lines."""
+    if triangles.is_surface(grid) and numpy.ptp(grid.points[:, 2]) > 0:
+        thin, middle = middle_plane(grid)
+        add_lines(axis, numpy.delete(triangles.curve(grid, thin, middle), thin, axis=2))
+    else:
+        add_solid(axis, *plane_fields(grid)[:2])
+
+
+def add_lines(axis, segments):
+    axis.add_collection(LineCollection(segments, colors="white", linewidths=1.2))
 
 
 def add_solid(axis, points, corners):

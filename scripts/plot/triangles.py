@@ -73,6 +73,23 @@ def section(grid, axis, position):
             {name: interpolate(values) for name, values in grid.point_data.items()})
 
 
+def curve(grid, axis, position):
+    """Where the plane x_axis = position cuts a surface: line segments (m, 2, 3)."""
+    corners = plane(grid)
+    height = grid.points[:, axis] - position
+    above = height[corners] > 0
+    segments = []
+    for single in range(3):  # the corner that lies on a side of its own
+        a, b, c = single, (single + 1) % 3, (single + 2) % 3
+        here = corners[(above[:, a] != above[:, b]) & (above[:, a] != above[:, c])]
+        ends = []
+        for other in (b, c):
+            h, h_other = height[here[:, a], None], height[here[:, other], None]
+            ends.append((h * grid.points[here[:, other]] - h_other * grid.points[here[:, a]]) / (h - h_other))
+        segments.append(numpy.stack(ends, axis=1))
+    return numpy.concatenate(segments)
+
+
 # Faces of a hexahedron as cycles of its corners; HEX27 finds what lies between them.
 HEX_FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
 
@@ -90,8 +107,18 @@ def face_quads(kind):
             for face in HEX_FACES for k in range(4)]
 
 
+# Quadrilaterals of a cell of a surface.
+QUADS = {9: [(0, 1, 2, 3)], 28: [(0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)]}
+
+
+def is_surface(grid):
+    return all(kind in PLANE for kind in grid.cells)
+
+
 def surface(grid):
-    """Quadrilaterals (m, 4) on the surface of a grid of hexahedra."""
+    """Quadrilaterals (m, 4) on the surface of a grid of hexahedra, or of a grid that is one."""
+    if is_surface(grid):
+        return pieces(grid.cells, QUADS)
     quads = numpy.concatenate([connectivity[:, quad] for kind, connectivity in grid.cells.items() if kind in (12, 29)
                                for quad in face_quads(kind)])
     _, first, counts = numpy.unique(numpy.sort(quads, axis=1), axis=0, return_index=True, return_counts=True)

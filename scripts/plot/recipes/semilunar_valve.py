@@ -25,19 +25,13 @@ def without_slivers(points, corners):
 
 
 def half_planes(run, file):
-    """The plane y = 0 of the whole valve: (radial coordinate and z, triangles, data) of its parts. A sector holds
-    one half of it on its first cut, and the other one, behind the axis, on its second."""
+    """The plane y = 0 of the whole valve in parts: (grid, position of the plane in it, side of the axis). A sector
+    holds one half of it on its first cut, and the other one, behind the axis, on its second."""
     grid = vtu.read(file)
     if run.parameter("model") != "sector":
-        points, corners, data = triangles.section(grid, 1, 1e-6)
-        return [(points[:, [0, 2]], without_slivers(points[:, [0, 2]], corners), data)]
-    parts = []
-    for angle, side in ((0.0, 1), (SIXTH, -1)):
-        grid.points = turned(grid.points, -angle)
-        points, corners, data = triangles.section(grid, 1, 1e-6 * side)
-        grid.points = turned(grid.points, angle)
-        parts.append((points[:, [0, 2]] * [side, 1], without_slivers(points[:, [0, 2]], corners), data))
-    return parts
+        return [(grid, 1e-6, 1)]
+    behind = vtu.Grid(turned(grid.points, -SIXTH), grid.cells, grid.point_data)
+    return [(grid, 1e-6, 1), (behind, -1e-6, -1)]
 
 
 def whole_leaflets(run, grid, value):
@@ -59,15 +53,27 @@ def moments(run, n=6):
 
 
 def jet(run, axis, frame, top):
-    for points, corners, data in half_planes(run, run.fields("fluid")[frame][1]):
-        image = axis.tripcolor(points[:, 0], points[:, 1], corners, numpy.linalg.norm(data["velocity"], axis=1),
-                               shading="gouraud", cmap="viridis", vmin=0, vmax=top, rasterized=True)
-    for points, corners, _ in half_planes(run, run.fields("solid")[frame][1]):
-        if len(corners):
-            figures.add_solid(axis, points, corners)
+    for grid, position, side in half_planes(run, run.fields("fluid")[frame][1]):
+        points, corners, data = triangles.section(grid, 1, position)
+        points = points[:, [0, 2]] * [side, 1]
+        image = axis.tripcolor(points[:, 0], points[:, 1], without_slivers(points, corners),
+                               numpy.linalg.norm(data["velocity"], axis=1), shading="gouraud", cmap="viridis", vmin=0,
+                               vmax=top, rasterized=True)
+    for grid, position, side in half_planes(run, run.fields("solid")[frame][1]):
+        cut_leaflets(axis, grid, position, side)
     axis.set(xlim=WINDOW[:2], ylim=WINDOW[2:], aspect="equal", title=f"t = {run.fields('fluid')[frame][0]:.3f} s")
     axis.grid(False)
     return image
+
+
+def cut_leaflets(axis, grid, position, side):
+    if triangles.is_surface(grid):
+        figures.add_lines(axis, triangles.curve(grid, 1, position)[..., [0, 2]] * [side, 1])
+        return
+    points, corners, _ = triangles.section(grid, 1, position)
+    points = points[:, [0, 2]] * [side, 1]
+    if len(corners):
+        figures.add_solid(axis, points, without_slivers(points, corners))
 
 
 def leaflets(run, axis, frame, top):
