@@ -78,6 +78,7 @@ class LinearSolver<B>::Impl {
       std::copy(start_.begin(), start_.end(), x.begin());
       renew(K);
       report = run(K, x.data(), target, true);
+      if (!report.converged) options_.method = "auto", reason_ = "as asked for";
     }
     reuse_.record(report.iterations, report.decades());
     if (!report.converged) reuse_.invalidate();
@@ -106,7 +107,8 @@ class LinearSolver<B>::Impl {
                             : "GMRES with block preconditioner" + size_text(K) + choice.why;
   }
 
-  /// Where the block preconditioner fails, LU takes over for good, if the size allows.
+  /// Where the block preconditioner fails, LU takes over, if the size allows: for good where LU does better.
+  /// A system that neither solves says nothing of the next.
   bool may_fall_back(const BlockCsr<B>& K) {
     if (use_direct_ || options_.method != "auto" || !lu_is_affordable(B - 1, K.layout().n_global() * B))
       return false;

@@ -149,6 +149,19 @@ TEST(LinearSolver, FallsBackToLuWhereTheBlockPreconditionerFails) {
   EXPECT_NE(solver.description().find("did not converge"), std::string::npos) << solver.description();
 }
 
+// No time for either: LU would be no cure.
+TEST(LinearSolver, WhatNobodySolvesDoesNotCallForLu) {
+  StokesModel<3> model({.cells = 9, .rho_c = 100, .viscosity = 1});
+  int block_setups = 0;
+  LinearSolver<4> solver({.max_iterations = 0}, [&] { return ++block_setups, schur_of(model)(); });
+  const std::vector<double> b = right_hand_side(model);
+  for (int k = 1; k <= 2; ++k) {
+    std::vector<double> x(b.size(), 0.0);
+    EXPECT_FALSE(solver.solve(model.K, b, x, tight_norms).converged);
+    EXPECT_EQ(block_setups, k);
+  }
+}
+
 TEST(LinearSolver, SaysWhatItChoseAndWhy) {
   StokesModel<2> model({.cells = 4});
   const std::vector<double> b = right_hand_side(model);

@@ -123,4 +123,19 @@ TEST(PatchedSolver, NaNFromThePreconditionerIsAFailedSolve) {
   scene.solve(solver);
   EXPECT_EQ(solver.setups(), 2);
 }
+
+// A solve that LU fails as well (here: no time for either) does not make LU the preconditioner of the next.
+TEST(PatchedSolver, WhatNobodySolvesDoesNotCallForLu) {
+  Scene<3> scene({.cells = 9, .rho_c = 10, .viscosity = 0.1, .wind = 1}, 3, 1e4);
+  int block_setups = 0;
+  PatchedSolver<4> solver({.max_iterations = 1}, [&] { return ++block_setups, scene.schur_parts(); });
+  solver.set_patch(scene.fluid.K, scene.K_s, scene.patch());
+  const std::vector<double> b = scene.fluid.exact();
+  for (int k = 1; k <= 2; ++k) {
+    std::vector<double> x(b.size(), 0.0);
+    EXPECT_FALSE(solver.solve(scene.fluid.K, scene.K_s, b, x, tight_target).converged);
+    EXPECT_EQ(block_setups, k);
+    EXPECT_EQ(solver.setups(), 2 * k);  // the block preconditioner, then LU
+  }
+}
 }  // namespace

@@ -73,6 +73,7 @@ class PatchedSolver {
       std::fill(x.begin(), x.end(), 0.0);
       renew(K_f);
       report = run(K_f, K_s, b, x, target, true);
+      if (!report.converged) options_.base = "auto";
     }
     reuse_.record(report.iterations, report.decades());
     if (!report.converged) reuse_.invalidate();
@@ -180,7 +181,8 @@ class PatchedSolver {
     for (int i = 0; i < B * B; ++i) to[i] += from[i];
   }
 
-  /// Where the block preconditioner fails, LU of the fluid takes over for good, if the size allows.
+  /// Where the block preconditioner fails, LU of the fluid takes over, if the size allows: for good where LU
+  /// does better. A system that neither solves (Newton's method far astray) says nothing of the next.
   bool may_fall_back(const BlockCsr<B>& K_f) {
     if (use_direct_ || options_.base != "auto" || !lu_is_affordable(B - 1, K_f.layout().n_global() * B))
       return false;

@@ -25,7 +25,7 @@ struct ValveOptions {
   double spacing = 0.5, protrusion_max = 0.08;
   int layers = 1;
   double rho_f = 1.1, mu = 0.036, rho_s = 1.0, E = 3e5, nu = 0.4, backflow = 1.0;
-  double fibres = 3e7, fibres_across = 3e6, fibres_stiffening = 0.0, bending = 60.0;
+  double fibres = 3e7, fibres_across = 3e6, fibres_stiffening = 0.0, bending = 100.0;
   double z_before = -1.0, z_behind = 5.0, picture_every = 0.02;
   TimeOptions time;
   FlowOptions flow;
