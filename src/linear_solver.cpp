@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "ifsi/core/error.hpp"
@@ -78,8 +79,8 @@ class LinearSolver<B>::Impl {
       std::copy(start_.begin(), start_.end(), x.begin());
       renew(K);
       report = run(K, x.data(), target, true);
-      if (!report.converged) options_.method = "auto", reason_ = "as asked for";
     }
+    if (!report.converged && std::exchange(fell_back_, false)) options_.method = "auto";
     reuse_.record(report.iterations, report.decades());
     if (!report.converged) reuse_.invalidate();
     K.layout().update_ghosts(x.data(), B);
@@ -114,7 +115,7 @@ class LinearSolver<B>::Impl {
       return false;
     options_.method = "direct";
     reason_ = "GMRES with block preconditioner did not converge";
-    return true;
+    return fell_back_ = true;
   }
 
   void renew(const BlockCsr<B>& K) {
@@ -177,7 +178,7 @@ class LinearSolver<B>::Impl {
   LinearSolverOptions options_;
   SchurProvider schur_;
   std::string choice_, reason_ = "as asked for";
-  bool use_direct_ = true, steady_ = false;
+  bool use_direct_ = true, steady_ = false, fell_back_ = false;
   DirectSolver direct_;
   SaddlePreconditioner<B> saddle_;
   ReusePolicy reuse_;

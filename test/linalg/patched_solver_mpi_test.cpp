@@ -124,7 +124,8 @@ TEST(PatchedSolver, NaNFromThePreconditionerIsAFailedSolve) {
   EXPECT_EQ(solver.setups(), 2);
 }
 
-// A solve that LU fails as well (here: no time for either) does not make LU the preconditioner of the next.
+// A solve that LU fails as well (here: no time for either), then or later, does not leave LU as the
+// preconditioner of the next.
 TEST(PatchedSolver, WhatNobodySolvesDoesNotCallForLu) {
   Scene<3> scene({.cells = 9, .rho_c = 10, .viscosity = 0.1, .wind = 1}, 3, 1e4);
   int block_setups = 0;

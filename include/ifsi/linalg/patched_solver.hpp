@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ifsi/linalg/block_csr.hpp"
@@ -73,8 +74,8 @@ class PatchedSolver {
       std::fill(x.begin(), x.end(), 0.0);
       renew(K_f);
       report = run(K_f, K_s, b, x, target, true);
-      if (!report.converged) options_.base = "auto";
     }
+    if (!report.converged) give_up_fall_back();
     reuse_.record(report.iterations, report.decades());
     if (!report.converged) reuse_.invalidate();
     K_f.layout().update_ghosts(x.data(), B);
@@ -181,13 +182,17 @@ class PatchedSolver {
     for (int i = 0; i < B * B; ++i) to[i] += from[i];
   }
 
-  /// Where the block preconditioner fails, LU of the fluid takes over, if the size allows: for good where LU
-  /// does better. A system that neither solves (Newton's method far astray) says nothing of the next.
+  /// Where the block preconditioner fails, LU of the fluid takes over, if the size allows, until it fails
+  /// too: where Newton's method is far astray nobody solves its systems, which says nothing of the next
+  /// step's.
   bool may_fall_back(const BlockCsr<B>& K_f) {
     if (use_direct_ || options_.base != "auto" || !lu_is_affordable(B - 1, K_f.layout().n_global() * B))
       return false;
     options_.base = "direct";
-    return true;
+    return fell_back_ = true;
+  }
+  void give_up_fall_back() {
+    if (std::exchange(fell_back_, false)) options_.base = "auto";
   }
 
   void renew(const BlockCsr<B>& K_f) {
@@ -261,7 +266,7 @@ class PatchedSolver {
 
   PatchedSolverOptions options_;
   SchurProvider schur_;
-  bool use_direct_ = true;
+  bool use_direct_ = true, fell_back_ = false;
   int n_setups_ = 0;
   DirectSolver fluid_lu_, patch_lu_{B == 4 ? DirectSolver::Work::shared : DirectSolver::Work::on_root};
   SaddlePreconditioner<B> saddle_;
