@@ -77,6 +77,33 @@ TYPED_TEST(TensorTest, Vectors) {
   EXPECT_EQ(2.0 * x, x + x);
 }
 
+TEST(Tensor, CrossProduct) {
+  const Vec<double, 3> e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1}, a{1, -2, 3}, b{0.5, 4, -1};
+  EXPECT_EQ(cross(e1, e2), e3);
+  EXPECT_EQ(cross(e2, e3), e1);
+  EXPECT_EQ(cross(e3, e1), e2);
+  EXPECT_EQ(cross(a, b), (Vec<double, 3>{-10, 2.5, 5}));
+  EXPECT_EQ(cross(b, a), -1.0 * cross(a, b));
+}
+
+TEST(Tensor, CofactorIsTheDeterminantTimesTheInverseTransposed) {
+  std::mt19937 random(5);
+  for (int sample = 0; sample < 5; ++sample) {
+    const auto a = random_matrix<2>(random);
+    const auto b = random_matrix<3>(random);
+    expect_equal<2>(cofactor(a), to_eigen(a).determinant() * to_eigen(a).inverse().transpose());
+    expect_equal<3>(cofactor(b), to_eigen(b).determinant() * to_eigen(b).inverse().transpose());
+  }
+}
+
+// Of two vectors on two it is their cross product on that of those.
+TEST(Tensor, CofactorOfASingularMatrix) {
+  const Vec<double, 3> a{1, 2, 3}, b{-1, 0.5, 2}, e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1};
+  const Mat<double, 3> plane = outer(a, e1) + outer(b, e2);
+  EXPECT_EQ(cofactor(plane), outer(cross(a, b), e3));
+  EXPECT_EQ(cofactor(Mat<double, 2>{2, 4, 1, 2}), (Mat<double, 2>{2, -1, -4, 2}));
+}
+
 TEST(Tensor, RectangularProductsAndTransposes) {
   const Mat<double, 2, 3> a = {1, 2, 3, 4, 5, 6};
   EXPECT_EQ(a * transpose(a), (Mat<double, 2>{14, 32, 32, 77}));

@@ -109,6 +109,80 @@ TEST(LeafletMesh, OthersAreTheFirstTurned) {
   }
 }
 
+TEST(LeafletMembrane, IsTheMiddleOfTheVolume) {
+  const AorticRoot root;
+  const Leaflet leaflet;
+  for (bool half : {true, false}) {
+    const auto volume = leaflet_mesh<Hex2>(root, leaflet, 0.1, 1, half, 0.4);
+    const auto membrane = leaflet_membrane<Quad2>(root, leaflet, 0.1, half, 0.4);
+    EXPECT_EQ(3 * membrane.mesh.n_points(), volume.mesh.n_points());
+    EXPECT_EQ(membrane.mesh.n_cells(), volume.mesh.n_cells());
+    ASSERT_EQ(membrane.lines.size(), volume.lines.size());
+    for (std::size_t j = 0; j < membrane.lines.size(); ++j) {
+      ASSERT_EQ(membrane.lines[j].size(), volume.lines[j].size());
+      for (std::size_t i = 0; i < membrane.lines[j].size(); ++i) {
+        const auto to_middle =
+            membrane.mesh.points[membrane.lines[j][i]] - volume.mesh.points[volume.lines[j][i]];
+        EXPECT_NEAR(std::sqrt(dot(to_middle, to_middle)), 0.5 * leaflet.thickness, 1e-12);
+      }
+    }
+    for (const auto& cell : volume.mesh.cells) {
+      const auto &low = volume.mesh.points[cell[0]], &high = volume.mesh.points[cell[4]];
+      const auto middle = 0.5 * (low + high);
+      EXPECT_TRUE(std::any_of(membrane.mesh.points.begin(), membrane.mesh.points.end(),
+                              [&](const auto& x) { return std::sqrt(dot(x - middle, x - middle)) < 1e-12; }));
+    }
+  }
+}
+
+TEST(LeafletMembrane, HalvesMakeTheWhole) {
+  const AorticRoot root;
+  const auto half = leaflet_membrane<Quad2>(root, {}, 0.1, true),
+             whole = leaflet_membrane<Quad2>(root, {}, 0.1, false);
+  ASSERT_EQ(half.lines.size(), whole.lines.size());
+  for (std::size_t j = 0; j < half.lines.size(); ++j) {
+    const std::size_t n = half.lines[j].size() - 1;
+    ASSERT_EQ(whole.lines[j].size(), 2 * n + 1);
+    EXPECT_EQ(half.mesh.points[half.lines[j][0]][1], 0.0);
+    for (std::size_t i = 0; i <= n; ++i) {
+      const auto &x = half.mesh.points[half.lines[j][i]], &right = whole.mesh.points[whole.lines[j][n + i]],
+                 &left = whole.mesh.points[whole.lines[j][n - i]];
+      for (int d = 0; d < 3; ++d) {
+        EXPECT_NEAR(right[d], x[d], 1e-12);
+        EXPECT_NEAR(left[d], d == 1 ? -x[d] : x[d], 1e-12);
+      }
+    }
+  }
+}
+
+// Each node inside the sheet has one; its arms go to the next nodes along both lines, the first along a.
+TEST(LeafletMembrane, CrossesJoinNeighbours) {
+  const auto membrane = leaflet_membrane<Quad2>(AorticRoot{}, {}, 0.1, true);
+  const auto& [mesh, lines] = membrane;
+  std::vector<std::array<int, 2>> place(mesh.n_points(), {-1, -1});
+  for (int j = 0; j < static_cast<int>(lines.size()); ++j)
+    for (int i = 0; i < static_cast<int>(lines[j].size()); ++i) place[lines[j][i]] = {i, j};
+  for (const auto& p : place) EXPECT_GE(p[0], 0);  // lines hold all nodes
+  EXPECT_EQ(mesh.crosses.size(), (lines.size() - 2) * (lines[0].size() - 2));
+  std::vector<int> crosses_at(mesh.n_points(), 0);
+  for (const auto& cross : mesh.crosses) {
+    ++crosses_at[cross[0]];
+    const auto [i, j] = place[cross[0]];
+    const std::array<std::array<int, 2>, 4> arms{{{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}};
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_EQ(place[cross[1 + k]], arms[k]);
+    }
+  }
+  EXPECT_EQ(*std::max_element(crosses_at.begin(), crosses_at.end()), 1);
+  // Neighbours in the mesh: one cell has both.
+  for (const auto& cross : mesh.crosses)
+    for (int k = 1; k < 5; ++k)
+      EXPECT_TRUE(std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const auto& cell) {
+        return std::count(cell.begin(), cell.end(), cross[0]) == 1 &&
+               std::count(cell.begin(), cell.end(), cross[k]) == 1;
+      }));
+}
+
 // A parabola between its two tangents, as fast where it ends as where it starts.
 TEST(LeafletSurface, TurnsUpTowardsTheFreeEdge) {
   const LeafletSurface surface(AorticRoot{}, {});

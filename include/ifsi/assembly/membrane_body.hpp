@@ -2,7 +2,6 @@
 /// \file
 /// A membrane: a deformable body of one layer of nodes.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -26,7 +25,7 @@ namespace ifsi {
 /// leaves its shear across the leaflet free; nothing can turn inside out. To the solids of a scene it is what
 /// SolidBody is; its cells are those of the surface and, behind them, the crosses that bend.
 /// \tparam Law see MembraneCell
-template <ReferenceElement Element_, SurfaceLaw Law_>
+template <ReferenceElement Element_, FibredSurfaceLaw Law_>
 class MembraneBody {
  public:
   using Element = Element_;
@@ -38,9 +37,9 @@ class MembraneBody {
 
   Parameters parameters;  ///< densities and gravity; viscosities count for nothing
 
-  /// \param thickness of the undeformed membrane; \param bending moment over curvature; 0: none
+  /// \param thickness of the undeformed membrane; \param bending moment per length over curvature; 0: none
   /// \throws Error (configuration) for numbers that are not positive (bending, densities: negative); (file)
-  /// for cells without area.
+  /// for cells and crosses without area or of nodes that do not exist.
   MembraneBody(std::string name, SurfaceMesh<Element> mesh, Law law, Parameters solid, double thickness,
                double bending)
       : parameters(solid),
@@ -189,13 +188,16 @@ class MembraneBody {
   void assemble_cell(const SolidState& state, int c, const StateSlopes* slopes, DeformationReport& report,
                      Sink&& sink) const {
     with_cell(state, c, [&](const Kernel& kernel) {
+      DeformationReport of_cell;
+      for (int q = 0; q < Kernel::n_points; ++q) of_cell.merge(det(kernel.deformation_gradient(q)), c);
+      report.merge(of_cell.min_det_F, c);
+      if (of_cell.inverted()) return;
       std::array<Vec<double, 3>, n> R;
       std::array<Mat<double, 3>, n * n> K;
       kernel.residual(parameters, [&](int a, const Vec<double, 3>& R_a) { R[a] = R_a; });
       if (slopes != nullptr)
         kernel.tangent(parameters, *slopes,
                        [&](int a, int b, const Mat<double, 3>& K_ab) { K[a * n + b] = K_ab; });
-      for (int q = 0; q < Kernel::n_points; ++q) report.merge(det(kernel.deformation_gradient(q)), c);
       sink(c, std::span<const double>(R[0].data, 3 * R.size()),
            std::span<const double>(K[0].data, slopes != nullptr ? 9 * K.size() : 0));
     });
@@ -222,12 +224,21 @@ class MembraneBody {
     expect(parameters.rho_s >= 0.0 && finite(parameters.rho_s), "rho_s", parameters.rho_s, ">= 0");
     expect(parameters.rho_f >= 0.0 && finite(parameters.rho_f), "rho_f", parameters.rho_f, ">= 0");
     if (mesh_.cells.empty()) throw Error(ExitCode::file, "membrane '" + name_ + "': the mesh has no cells");
+    for (int c = 0; c < mesh_.n_cells(); ++c) check_nodes(mesh_.cells[c], "cell " + std::to_string(c));
+    for (const auto& nodes : mesh_.crosses) check_nodes(nodes, "a cross");
     for (int c = 0; c < mesh_.n_cells(); ++c)
       for (const auto& dN : BasisTable<Element>::dN) {
         const auto normal = area_normal(jacobian(dN, at(mesh_.cells[c], {})));
         if (!(dot(normal, normal) > 0.0))
           throw Error(ExitCode::file, "membrane '" + name_ + "': cell " + std::to_string(c) + " has no area");
       }
+  }
+
+  void check_nodes(std::span<const int> nodes, const std::string& what) const {
+    for (int a : nodes)
+      if (a < 0 || a >= n_nodes())
+        throw Error(ExitCode::file, "membrane '" + name_ + "': " + what + " has node " + std::to_string(a) +
+                                        ", expected 0 to " + std::to_string(n_nodes() - 1));
   }
 
   std::string name_;

@@ -23,15 +23,20 @@ class PlaneStress {
  public:
   explicit PlaneStress(Law law) : law_(law) {}
 
-  /// F Q + d (x) N with the director of least energy, by Newton's method from the unit normal.
-  /// \pre F Q stretches no line of the surface to nothing
+  /// F Q + d (x) N with the director of least energy, by Newton's method from along the normal.
+  /// \pre F Q stretches no line of the surface to nothing and some director balances it; that of
+  /// StVenantKirchhoff does not where the squares of both stretches add up to more than 1 + 1 / nu
   template <class T, int n, int dim>
   [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
     using std::min, std::sqrt;
     const Mat<T, n> F_Q = F * in_plane(N);
     Vec<T, n> d = cofactor(F_Q) * N;
-    d = T(1.0 / sqrt(dot(d, d))) * d;
-    constexpr int iterations = 10;  // quadratic: round-off after 4 at strains of 10 %
+    // No longer than the normal, nor than what keeps the volume: from beyond J = e a logarithm of J would
+    // make Newton's method run away.
+    const T area_2 = dot(d, d);
+    d = T(min(T(1.0 / sqrt(area_2)), T(1.0 / area_2))) * d;
+    // Quadratic: round-off after 4 at strains of 10 %. A number stops there, at stretches of 4 after 10.
+    constexpr int iterations = std::is_same_v<T, double> ? 30 : 10;
     for (int k = 0; k < iterations; ++k) {
       const Mat<T, n> F_d = F_Q + outer(d, N);
       const Vec<T, n> step =
@@ -40,7 +45,7 @@ class PlaneStress {
       const T part = min(T(1.0), T(0.5 * sqrt(dot(d, d) / (dot(step, step) + 1e-300))));
       d = d - part * step;
       if constexpr (std::is_same_v<T, double>)
-        if (dot(step, step) < 1e-30 * dot(d, d)) break;
+        if (dot(step, step) < 1e-18 * dot(d, d)) break;  // what is left is of the order of its square
     }
     return F_Q + outer(d, N);
   }

@@ -31,13 +31,26 @@ concept SolidLaw = detail::SolidLawIn<L, 2, 2> && detail::SolidLawIn<L, 3, 3> &&
   { law.young_modulus() } -> std::same_as<double>;
 };
 
-/// A law of a surface in space, asked with its unit normal N: see PlaneStress.
-///   relaxed        F in the plane, with the director that N turns into
-template <class L>
-concept SurfaceLaw = requires(const L& law, const Mat<double, 3>& F, const Vec<double, 3>& X) {
+namespace detail {
+template <class L, class... Directions>
+concept SurfaceLawOf = requires(const L& law, const Mat<double, 3>& F, const Vec<double, 3>& X,
+                                const Directions&... directions) {
   { law.relaxed(F, X, X) } -> std::same_as<Mat<double, 3>>;
+  { law.psi(F, X, directions...) } -> std::same_as<double>;
+  { law.first_piola(F, X, directions...) } -> std::same_as<Mat<double, 3>>;
+  { law.tangent(F, X, directions...) } -> std::same_as<Tangent<double, 3>>;
   { law.young_modulus() } -> std::same_as<double>;
 };
+}  // namespace detail
+
+/// A law of a surface in space, asked with its unit normal N: see PlaneStress.
+///   relaxed        F in the plane, with the director that N turns into; the F of all others
+template <class L>
+concept SurfaceLaw = detail::SurfaceLawOf<L, Vec<double, 3>>;
+
+/// The same of a surface with fibres, asked with their direction A and N: see TensionFibres.
+template <class L>
+concept FibredSurfaceLaw = detail::SurfaceLawOf<L, Vec<double, 3>, Vec<double, 3>>;
 
 /// A law whose energy is an isochoric part, which sees J^(-1/3) F only, plus a volumetric part U(J).
 /// Mean dilatation then replaces U(J) by U(theta) and leaves the rest alone.

@@ -29,7 +29,7 @@ class TensionFibres {
   /// \param direction where the caller knows no other
   /// \param stiffening a
   /// \param across E_f of the second family of a sheet
-  /// \throws Error (configuration) for a negative modulus or stiffening
+  /// \throws Error (configuration) for a negative number
   TensionFibres(Law law, double modulus, Vec<double, 3> direction, double stiffening = 0.0,
                 double across = 0.0)
       : law_(law),
@@ -90,7 +90,8 @@ class TensionFibres {
 
   /// In a surface (PlaneStress): fibres lie in its plane, where the director does not stretch them.
   template <class T, int n, int dim>
-  [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X, const Vec<T, n>& N) const {
+  [[nodiscard]] Mat<T, n> relaxed(const Mat<T, n>& F, const Vec<T, dim>& X,
+                                  const Vec<T, n>& N) const requires SurfaceLaw<Law> {
     return law_.relaxed(F, X, N);
   }
 

@@ -132,9 +132,9 @@ struct LeafletMesh {
   std::vector<std::vector<int>> lines;
 };
 
-/// The numbers of cells along a and b that keep neighbouring nodes `spacing` apart, and where a leaflet whose
-/// mid-leaflet plane is at `angle` has them. Half of one is its part at a >= 0, whose cut a = 0 lies exactly
-/// in that plane.
+/// The numbers of cells along a and b that put the nodes of the longest line at most `spacing` apart in the
+/// mean, and where a leaflet whose mid-leaflet plane is at `angle` has them. Half of one is its part at
+/// a >= 0, whose cut a = 0 lies exactly in that plane.
 class LeafletLattice {
  public:
   /// \param order of the cells. \throws Error (configuration) as LeafletSurface

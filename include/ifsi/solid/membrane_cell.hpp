@@ -24,10 +24,9 @@ struct MembraneCellData {
   std::array<Vec<double, 3>, Element::n_nodes> X, u, v, a;
 };
 
-/// The kernel of one cell. \tparam Element of two dimensions; \tparam Law of a surface, as PlaneStress and
-/// TensionFibres of it: asked with the direction of fibres, which is that of the first local axis, and the
-/// unit normal.
-template <class Element, SurfaceLaw Law>
+/// The kernel of one cell. \tparam Element of two dimensions; \tparam Law as TensionFibres of PlaneStress:
+/// asked with the direction of fibres, which is that of the first local axis, and the unit normal.
+template <class Element, FibredSurfaceLaw Law>
 class MembraneCell {
   static_assert(Element::dim == 2, "a membrane is meshed by cells of a surface");
   using Table = BasisTable<Element>;
@@ -98,7 +97,7 @@ class MembraneCell {
     dV_[q] = thickness * Table::weights[q] * area;
     // Gradients along the surface: dN/dX = J (J^T J)^-1 dN/dxi.
     const Mat<double, 3, 2> inverse_J = J * inverse(Mat<double, 2>(transpose(J) * J));
-    Tensor F = outer(N_[q], N_[q]);
+    Tensor F = Tensor::zero();
     for (int a = 0; a < n_nodes; ++a) {
       grad_N_[q][a] = inverse_J * Table::dN[q][a];
       F += outer(data_.X[a] + data_.u[a], grad_N_[q][a]);

@@ -2,11 +2,13 @@
 /// \file
 /// Bending of a thin sheet whose nodes form a lattice.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <string>
 #include <vector>
 
+#include "ifsi/core/error.hpp"
 #include "ifsi/core/tensor.hpp"
 
 namespace ifsi {
@@ -17,7 +19,7 @@ namespace ifsi {
 ///     E = w/2 sum_d B_d |k_d - k_d0|^2,    k_d = sum_k c_dk x_k,
 ///
 /// k_d0 the second difference of the undeformed sheet, carried along by the frame (t_1, t_2, n) of the
-/// differences t_d across the node and the unit normal n.
+/// differences t_d across the node and the unit normal n. Twist costs nothing, nor do edges bend.
 class SheetBending {
  public:
   using Point = Vec<double, 3>;
@@ -31,19 +33,24 @@ class SheetBending {
     std::array<Block, n * n> K{};
   };
 
-  /// Adds the stencil of these nodes, at X undeformed. \param B moment over curvature along either line
+  /// Adds the stencil of these nodes, at X undeformed. \param B moment per length over curvature along either
+  /// line. \throws Error (file) where both lines are one, or points coincide.
   void add(const Nodes& nodes, const std::array<Point, n>& X, std::array<double, 2> B) {
     Stencil s;
     s.B = B;
     std::array<double, 2> width;
+    double shortest = length(X[1] - X[0]);
     for (int d = 0; d < 2; ++d) {
       const double before = length(X[1 + 2 * d] - X[0]), behind = length(X[2 + 2 * d] - X[0]);
       s.before[d] = 2.0 / (before * (before + behind)), s.behind[d] = 2.0 / (behind * (before + behind));
       s.across[d] = 1.0 / (before + behind);
-      width[d] = 0.5 * (before + behind);
+      width[d] = 0.5 * (before + behind), shortest = std::min({shortest, before, behind});
     }
     const Frame f(s, X);
     s.area = width[0] * width[1] * f.size;
+    if (!(shortest > 0.0 && f.size > 1e-8))  // size: about the sine between them
+      throw Error(ExitCode::file,
+                  "the lines that cross at node " + std::to_string(nodes[0]) + " of a sheet span no area");
     for (int d = 0; d < 2; ++d) s.rest[d] = inverse(f.axes()) * second_difference(s, X, d);
     nodes_.push_back(nodes), stencils_.push_back(s);
   }
