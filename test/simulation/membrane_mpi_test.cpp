@@ -15,8 +15,8 @@ namespace {
 using Membrane = MembraneBody<Quad2, TensionFibres<PlaneStress<NeoHookean>>>;
 using MembraneProblem = FsiProblem<Hex1, Membrane>;
 
-/// A flag 0.4 wide and 0.6 high that stands on the floor of the duct, bulged a little.
-SurfaceMesh<Quad2> flag_mesh() {
+/// A flag 0.4 wide and 0.6 high that stands on the floor of the duct at this x, bulged a little.
+SurfaceMesh<Quad2> flag_mesh(double x_floor) {
   constexpr int n_a = 4, n_b = 6;
   const auto flat = box<Quad2>({0.0, 0.0}, {1.0, 1.0}, {n_a / 2, n_b / 2});
   SurfaceMesh<Quad2> mesh;
@@ -25,7 +25,7 @@ SurfaceMesh<Quad2> flag_mesh() {
   for (int p = 0; p < flat.n_points(); ++p) {
     const auto& x = flat.points[p];
     node_at[std::lround(n_a * x[0])][std::lround(n_b * x[1])] = p;
-    mesh.points.push_back({1.0 + 0.06 * std::sin(3.0 * x[0]) * x[1], 0.6 * x[1], 0.3 + 0.4 * x[0]});
+    mesh.points.push_back({x_floor + 0.06 * std::sin(3.0 * x[0]) * x[1], 0.6 * x[1], 0.3 + 0.4 * x[0]});
   }
   for (int i = 1; i < n_a; ++i)
     for (int j = 1; j < n_b; ++j)
@@ -34,16 +34,18 @@ SurfaceMesh<Quad2> flag_mesh() {
   return mesh;
 }
 
-std::vector<Membrane> flag(double bending) {
+/// Two of them, so that one does not begin with the first node.
+std::vector<Membrane> flags(double bending) {
   const TensionFibres law(PlaneStress(NeoHookean(Lame::from_young(300.0, 0.4))), 200.0, {0.0, 0.0, 1.0}, 2.0,
                           100.0);
   const SolidParameters<3> solid{.rho_s = 1.5, .rho_f = 1.0, .mu_f = 0.1, .mu_s = 0.0, .gravity = {}};
-  return {Membrane("flag", flag_mesh(), law, solid, 0.03, bending)};
+  return {Membrane("first flag", flag_mesh(0.7), law, solid, 0.03, bending),
+          Membrane("second flag", flag_mesh(1.3), law, solid, 0.03, bending)};
 }
 
-struct FlagInDuct : MembraneProblem {
-  FlagInDuct(const Mesh<Hex1>& mesh, const FsiOptions& fsi, double bending = 0.5)
-      : MembraneProblem(mesh, duct(), 1.0, Newtonian{0.1}, flag(bending), options(), fsi) {}
+struct FlagsInDuct : MembraneProblem {
+  FlagsInDuct(const Mesh<Hex1>& mesh, const FsiOptions& fsi, double bending = 0.5)
+      : MembraneProblem(mesh, duct(), 1.0, Newtonian{0.1}, flags(bending), options(), fsi) {}
   static FlowBoundary<3> duct() {
     FlowBoundary<3> boundary;
     boundary.velocity("left", [](const auto& x, double t) {
@@ -79,7 +81,7 @@ Mesh<Hex1> duct_mesh(Communicator comm) {
 
 TEST(MembraneInSpace, DoesNotDependOnTheRanks) {
   const auto alone = duct_mesh(Communicator(MPI_COMM_SELF)), shared = duct_mesh(Communicator());
-  FlagInDuct one(alone, {}), all(shared, {});
+  FlagsInDuct one(alone, {}), all(shared, {});
   one.march(3), all.march(3);
   EXPECT_LT(all.constraint_violation(), 1e-10);
   double largest = 0.0;
@@ -101,7 +103,7 @@ TEST(MembraneInSpace, NewtonConvergesAlmostQuadratically) {
     for (double bending : {0.0, 0.5}) {
       FsiOptions fsi;
       fsi.treatment = treatment;
-      FlagInDuct problem(mesh, fsi, bending);
+      FlagsInDuct problem(mesh, fsi, bending);
       problem.march(3);
       std::vector<double> residuals;
       problem.watch([&](const NewtonReport& r) { residuals.push_back(r.residual.momentum); });
@@ -116,7 +118,7 @@ TEST(MembraneInSpace, NewtonConvergesAlmostQuadratically) {
 TEST(MembraneInSpace, ContinuesFromACheckpoint) {
   const auto mesh = duct_mesh(Communicator());
   const test::ScratchFolder folder;
-  FlagInDuct straight(mesh, {}), restarted(mesh, {});
+  FlagsInDuct straight(mesh, {}), restarted(mesh, {});
   straight.march(2);
   CheckpointWriter writer(mesh.comm);
   straight.save(writer);
@@ -135,7 +137,7 @@ TEST(MembraneInSpace, CannotBeTied) {
   FsiOptions fsi;
   fsi.tie = 1.0;
   try {
-    FlagInDuct problem(mesh, fsi);
+    FlagsInDuct problem(mesh, fsi);
     ADD_FAILURE() << "accepted";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::configuration);

@@ -133,6 +133,15 @@ TEST(SheetBending, ARolledSheetHoldsHalfTheStiffnessTimesCurvatureSquared) {
   }
 }
 
+// Second differences of parabolas are exact, however far apart the nodes are.
+TEST(SheetBending, UnevenArmsMeasureTheSameCurvature) {
+  const Cross X{Point{0, 0, 0}, Point{-0.7, 0, 0}, Point{1.3, 0, 0}, Point{0, -0.4, 0}, Point{0, 0.2, 0}};
+  Cross x = X;
+  for (auto& p : x) p[2] = 0.5 * (1.5 * p[0] * p[0] - 3.0 * p[1] * p[1]);
+  const double area = 1.0 * 0.3;
+  EXPECT_NEAR(one_cross(X).term(0, x).energy, 0.5 * area * (2.0 * 1.5 * 1.5 + 0.7 * 3.0 * 3.0), 1e-14);
+}
+
 TEST(SheetBending, RefusesLinesThatSpanNoArea) {
   Cross along_one_line = curved, coincident = curved;
   along_one_line[3] = curved[1], along_one_line[4] = curved[2];
