@@ -49,6 +49,30 @@ TEST(SheetBending, IsAtRestUndeformedAndWhereverThatIsMovedTo) {
   EXPECT_NEAR(sheet.term(0, moved_rigidly(x)).energy, sheet.term(0, x).energy, 1e-13);
 }
 
+// Of a symmetric sheet half of a cross has half of the energy and, on its nodes, half of the forces, but for
+// the node whose image it knows: that has the image's as well.
+TEST(SheetBending, AMirroredCrossIsHalfOfASymmetricOne) {
+  const Point normal{0.6, 0.8, 0.0}, along{-0.8, 0.6, 0.0};
+  const Mat<double, 3> image = Mat<double, 3>::identity() - 2.0 * outer(normal, normal);
+  const auto symmetric_cross = [&](double bend) {
+    const Point behind = 0.9 * normal + bend * along + Point{0.0, 0.0, 0.2 * bend};
+    return Cross{Point::zero(), image * behind, behind, Point{0.0, 0.0, -0.8},
+                 Point{0.0, 0.0, 1.1 + bend} + bend * along};
+  };
+  SheetBending whole, half;
+  const Cross X = symmetric_cross(0.1), x = symmetric_cross(-0.3);
+  whole.add(first_nodes, X, {2.0, 0.7});
+  const auto known = [](Cross c) { return c[1] = c[2], c; };
+  half.add_mirrored({0, 2, 2, 3, 4}, known(X), {2.0, 0.7}, normal);
+  const auto a = whole.term(0, x), b = half.term(0, known(x));
+  EXPECT_GT(a.energy, 0.01);
+  EXPECT_NEAR(b.energy, 0.5 * a.energy, 1e-14);
+  for (int i = 0; i < 3; ++i) {
+    for (int k : {0, 3, 4}) EXPECT_NEAR(b.R[k][i], 0.5 * a.R[k][i], 1e-13);
+    EXPECT_NEAR(b.R[1][i] + b.R[2][i], a.R[2][i], 1e-13);
+  }
+}
+
 TEST(SheetBending, ForcesAreTheDerivativeOfTheEnergy) {
   const auto sheet = one_cross(curved);
   const Cross x = deformed(curved);

@@ -48,8 +48,10 @@ class MembraneBody {
         law_(std::move(law)),
         thickness_(thickness) {
     check(bending);
-    for (const auto& nodes : mesh_.crosses)
-      if (bending > 0.0) bending_.add(nodes, at(nodes, {}), {bending, bending});
+    if (bending == 0.0) return;
+    for (const auto& nodes : mesh_.crosses) bending_.add(nodes, at(nodes, {}), {bending, bending});
+    for (const auto& nodes : mesh_.mirrored)
+      bending_.add_mirrored(nodes, at(nodes, {}), {bending, bending}, mesh_.mirror_normal);
   }
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -225,7 +227,8 @@ class MembraneBody {
     expect(parameters.rho_f >= 0.0 && finite(parameters.rho_f), "rho_f", parameters.rho_f, ">= 0");
     if (mesh_.cells.empty()) throw Error(ExitCode::file, "membrane '" + name_ + "': the mesh has no cells");
     for (int c = 0; c < mesh_.n_cells(); ++c) check_nodes(mesh_.cells[c], "cell " + std::to_string(c));
-    for (const auto& nodes : mesh_.crosses) check_nodes(nodes, "a cross");
+    for (const auto* crosses : {&mesh_.crosses, &mesh_.mirrored})
+      for (const auto& nodes : *crosses) check_nodes(nodes, "a cross");
     for (int c = 0; c < mesh_.n_cells(); ++c)
       for (const auto& dN : BasisTable<Element>::dN) {
         const auto normal = area_normal(jacobian(dN, at(mesh_.cells[c], {})));

@@ -195,8 +195,8 @@ LeafletMesh<GlobalMesh<Element>> leaflet_mesh(const AorticRoot& root, const Leaf
   return {std::move(mesh), std::move(lines)};
 }
 
-/// The surface in the middle of a leaflet, or half of it, with the crosses of its lines; those on its edges
-/// have none. Throws Error(configuration).
+/// The surface in the middle of a leaflet, or half of it, with the crosses of its lines, mirrored on the cut
+/// of a half; its other edges have none. Throws Error(configuration).
 template <class Element>
 LeafletMesh<SurfaceMesh<Element>> leaflet_membrane(const AorticRoot& root, const Leaflet& leaflet,
                                                    double spacing, bool half, double angle = 0.0) {
@@ -208,6 +208,12 @@ LeafletMesh<SurfaceMesh<Element>> leaflet_membrane(const AorticRoot& root, const
   result.mesh.cells = flat.cells;
   for (const auto& x : flat.points) result.mesh.points.push_back(lattice.at(x[0], x[1], 0.0));
   const auto& lines = result.lines;
+  if (half) {
+    result.mesh.mirror_normal = {-std::sin(angle), std::cos(angle), 0.0};
+    for (std::size_t j = 1; j + 1 < lines.size(); ++j)
+      result.mesh.mirrored.push_back(
+          {lines[j][0], lines[j][1], lines[j][1], lines[j - 1][0], lines[j + 1][0]});
+  }
   for (std::size_t j = 1; j + 1 < lines.size(); ++j)
     for (std::size_t i = 1; i + 1 < lines[j].size(); ++i)
       result.mesh.crosses.push_back(

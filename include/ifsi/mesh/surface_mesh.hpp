@@ -19,6 +19,10 @@ struct SurfaceMesh {
   std::vector<Vec<double, 3>> points;
   std::vector<std::array<int, Element::n_nodes>> cells;  ///< point indices, in the element's node order
   std::vector<Cross> crosses;                            ///< where lines of nodes cross: what resists bending
+  /// Crosses on a plane of symmetry through the origin: the node before along the first line is the image of
+  /// the one behind, and named like it.
+  std::vector<Cross> mirrored;
+  Vec<double, 3> mirror_normal = Vec<double, 3>::zero();  ///< of that plane, of length one
 
   [[nodiscard]] int n_points() const { return static_cast<int>(points.size()); }
   [[nodiscard]] int n_cells() const { return static_cast<int>(cells.size()); }

@@ -36,23 +36,13 @@ class SheetBending {
   /// Adds the stencil of these nodes, at X undeformed. \param B moment per length over curvature along either
   /// line. \throws Error (file) where both lines are one, or points coincide.
   void add(const Nodes& nodes, const std::array<Point, n>& X, std::array<double, 2> B) {
-    Stencil s;
-    s.B = B;
-    std::array<double, 2> width;
-    double shortest = length(X[1] - X[0]);
-    for (int d = 0; d < 2; ++d) {
-      const double before = length(X[1 + 2 * d] - X[0]), behind = length(X[2 + 2 * d] - X[0]);
-      s.before[d] = 2.0 / (before * (before + behind)), s.behind[d] = 2.0 / (behind * (before + behind));
-      s.across[d] = 1.0 / (before + behind);
-      width[d] = 0.5 * (before + behind), shortest = std::min({shortest, before, behind});
-    }
-    const Frame f(s, X);
-    s.area = width[0] * width[1] * f.size;
-    if (!(shortest > 0.0 && f.size > 1e-8))  // size: about the sine between them
-      throw Error(ExitCode::file,
-                  "the lines that cross at node " + std::to_string(nodes[0]) + " of a sheet span no area");
-    for (int d = 0; d < 2; ++d) s.rest[d] = inverse(f.axes()) * second_difference(s, X, d);
-    nodes_.push_back(nodes), stencils_.push_back(s);
+    add_stencil(nodes, X, B, Block::identity(), 1.0);
+  }
+  /// The same of a node on a plane of symmetry through the origin, whose node 1 is the image of node 2: half
+  /// of a stencil. \param normal of the plane, of length one; \pre nodes[1] = nodes[2]
+  void add_mirrored(const Nodes& nodes, const std::array<Point, n>& X, std::array<double, 2> B,
+                    const Point& normal) {
+    add_stencil(nodes, X, B, Block::identity() - 2.0 * outer(normal, normal), 0.5);
   }
 
   [[nodiscard]] const std::vector<Nodes>& nodes() const { return nodes_; }
@@ -60,8 +50,9 @@ class SheetBending {
 
   /// Energy, forces as a residual and their slopes with nodes at x. The slopes leave out the curvature of
   /// k_d0: they are positive semi-definite, and exact where the sheet is as curved as undeformed.
-  [[nodiscard]] Term term(int stencil, const std::array<Point, n>& x) const {
+  [[nodiscard]] Term term(int stencil, std::array<Point, n> x) const {
     const Stencil& s = stencils_[stencil];
+    x[1] = s.image * x[1];
     const Frame f(s, x);
     Term t;
     for (int d = 0; d < 2; ++d) {
@@ -71,6 +62,7 @@ class SheetBending {
       std::array<Block, n> G;  // of r, per node
       for (int k = 0; k < n; ++k) {
         G[k] = s.difference(d, k) * Block::identity() - f.slope(s, k, s.rest[d]);
+        if (k == 1) G[k] = G[k] * s.image;
         t.R[k] += c * (transpose(G[k]) * r);
       }
       for (int k = 0; k < n; ++k)
@@ -80,10 +72,33 @@ class SheetBending {
   }
 
  private:
+  void add_stencil(const Nodes& nodes, std::array<Point, n> X, std::array<double, 2> B, const Block& image,
+                   double part) {
+    Stencil s;
+    s.B = B, s.image = image;
+    X[1] = image * X[1];
+    std::array<double, 2> width;
+    double shortest = length(X[1] - X[0]);
+    for (int d = 0; d < 2; ++d) {
+      const double before = length(X[1 + 2 * d] - X[0]), behind = length(X[2 + 2 * d] - X[0]);
+      s.before[d] = 2.0 / (before * (before + behind)), s.behind[d] = 2.0 / (behind * (before + behind));
+      s.across[d] = 1.0 / (before + behind);
+      width[d] = 0.5 * (before + behind), shortest = std::min({shortest, before, behind});
+    }
+    const Frame f(s, X);
+    s.area = part * width[0] * width[1] * f.size;
+    if (!(shortest > 0.0 && f.size > 1e-8))  // size: about the sine between them
+      throw Error(ExitCode::file,
+                  "the lines that cross at node " + std::to_string(nodes[0]) + " of a sheet span no area");
+    for (int d = 0; d < 2; ++d) s.rest[d] = inverse(f.axes()) * second_difference(s, X, d);
+    nodes_.push_back(nodes), stencils_.push_back(s);
+  }
+
   struct Stencil {
     std::array<double, 2> B, before, behind, across;
     double area;
     std::array<Point, 2> rest;  ///< k_d0 in the frame
+    Block image;                ///< of node 1: identity, or the reflection in a plane of symmetry
 
     /// c_dk.
     [[nodiscard]] double difference(int d, int k) const {
