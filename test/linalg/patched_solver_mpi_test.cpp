@@ -122,6 +122,10 @@ TEST(PatchedSolver, NaNFromThePreconditionerIsAFailedSolve) {
   PatchedSolver<4> solver({}, broken);
   scene.solve(solver);
   EXPECT_EQ(solver.setups(), 2);
+  solver.invalidate(), scene.solve(solver);
+  EXPECT_EQ(solver.setups(), 3);  // LU stays
+  solver.give_up(), scene.solve(solver);
+  EXPECT_EQ(solver.setups(), 5);  // unless the step came to nothing
 }
 
 // A solve that LU fails as well (here: no time for either), then or later, does not leave LU as the

@@ -75,13 +75,18 @@ class PatchedSolver {
       renew(K_f);
       report = run(K_f, K_s, b, x, target, true);
     }
-    if (!report.converged) give_up_fall_back();
+    if (!report.converged) give_up();
     reuse_.record(report.iterations, report.decades());
     if (!report.converged) reuse_.invalidate();
     K_f.layout().update_ghosts(x.data(), B);
     return report;
   }
 
+  /// Takes back what was decided for systems that led nowhere: LU in place of a block preconditioner that
+  /// failed on them. Where Newton's method is far astray, that says nothing of the next step's.
+  void give_up() {
+    if (std::exchange(fell_back_, false)) options_.base = "auto", invalidate();
+  }
   /// The fluid's set-up fits no longer (another time step).
   void invalidate() { reuse_.invalidate(); }
   [[nodiscard]] long patch_unknowns() const { return patch_ ? patch_->layout.n_global() * B : 0; }
@@ -182,17 +187,13 @@ class PatchedSolver {
     for (int i = 0; i < B * B; ++i) to[i] += from[i];
   }
 
-  /// Where the block preconditioner fails, LU of the fluid takes over, if the size allows, until it fails
-  /// too: where Newton's method is far astray nobody solves its systems, which says nothing of the next
-  /// step's.
+  /// Where the block preconditioner fails, LU of the fluid takes over, if the size allows, until it fails too
+  /// or give_up() is called.
   bool may_fall_back(const BlockCsr<B>& K_f) {
     if (use_direct_ || options_.base != "auto" || !lu_is_affordable(B - 1, K_f.layout().n_global() * B))
       return false;
     options_.base = "direct";
     return fell_back_ = true;
-  }
-  void give_up_fall_back() {
-    if (std::exchange(fell_back_, false)) options_.base = "auto";
   }
 
   void renew(const BlockCsr<B>& K_f) {

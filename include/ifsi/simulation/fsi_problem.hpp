@@ -205,6 +205,7 @@ class FsiProblem : public FlowProblem<Element, Model> {
     if (n_lost_nodes() > n_held_) return report.failure = leaving(), report;
     report = newton(*this, this->options_.newton, this->watch_);
     if (report.converged) check_change(report, dt);
+    if (!report.converged) patched_.give_up();
     if (report.converged) {
       this->close_step();
       solids_.end_step();

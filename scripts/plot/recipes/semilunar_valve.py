@@ -46,9 +46,9 @@ def whole_leaflets(run, grid, value):
 
 
 def moments(run, n=6):
-    """Frames until the flow has turned, evenly."""
+    """Frames until the valve has shut, evenly."""
     times = [t for t, _ in run.fields("fluid")]
-    wanted = numpy.linspace(0, min(times[-1], 0.36), n + 1)[1:] if times else []
+    wanted = numpy.linspace(0, min(times[-1], 0.42), n + 1)[1:] if times else []
     return sorted({figures.fluid_at(run, t) for t in wanted})
 
 
