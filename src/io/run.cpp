@@ -172,6 +172,7 @@ void Run::log_failure(const std::string& message) {
 
 CsvFile Run::csv(const std::string& name, const std::vector<Column>& columns, double resume_at) {
   CsvFile file;
+  if (restarted()) comm().barrier();  // other ranks may still be reading the rows that the file keeps
   on_root(comm(), [&] {
     file = restarted() ? CsvFile(path(name), columns, resume_at) : CsvFile(path(name), columns);
   });

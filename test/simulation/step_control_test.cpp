@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ifsi/simulation/time_loop.hpp"
+#include "io/scratch_folder.hpp"
 
 namespace ifsi {
 namespace {
@@ -62,6 +63,30 @@ TEST(StepControl, AdaptiveStepsSettleAtHalfTheToleratedChange) {
 }
 
 // Each sign of a coarse time step by itself; a flow without bodies knows of none.
+// What a run was doing goes on after a restart: three of four good steps, then a fourth.
+TEST(StepControl, ARestartGoesOnWithTheSameSteps) {
+  const test::ScratchFolder folder;
+  TimeOptions time;
+  time.dt = 0.1, time.end = 100.0, time.adaptive = true;
+  StepControl control(time);
+  for (int k = 0; k < 7; ++k) control.accepted(control.next(0.0, 100.0), 1e-3);
+  const Communicator comm(MPI_COMM_SELF);
+  CheckpointWriter out(comm);
+  control.save(out);
+  const Checkpoint in(comm, out.save(folder.path() + "/", 1));
+  StepControl next(time);
+  next.restore(in);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(next.next(0.0, 100.0), control.next(0.0, 100.0));
+    EXPECT_NE(next.next(0.0, 100.0), 0.1);
+    next.accepted(next.next(0.0, 100.0), 1e-3), control.accepted(control.next(0.0, 100.0), 1e-3);
+  }
+  time.dt = 0.05;  // asked for anew
+  StepControl other(time);
+  other.restore(in);
+  EXPECT_EQ(other.next(0.0, 100.0), 0.05);
+}
+
 TEST(StepRecords, WarnOfWhatWasSeenToBeWrong) {
   EXPECT_TRUE(warnings_of({.steps = 500, .rejected = 5, .largest_change = 0.6}).empty());
   EXPECT_TRUE(warnings_of({.steps = 5, .rejected = 3, .largest_change = 0.0}).empty());

@@ -59,7 +59,8 @@ class Run {
   /// gets all.
   void progress(double done, const std::string& line);
 
-  /// CSV table in the output folder; a restarted run keeps the rows up to `resume_at` in the first column.
+  /// Collective. CSV table in the output folder; a restarted run keeps the rows up to `resume_at` in the
+  /// first column.
   [[nodiscard]] CsvFile csv(const std::string& name, const std::vector<Column>& columns,
                             double resume_at = 0.0);
 

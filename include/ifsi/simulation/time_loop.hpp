@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ifsi/io/checkpoint.hpp"
 #include "ifsi/io/mesh_checkpoint.hpp"
 #include "ifsi/io/run.hpp"
 #include "ifsi/simulation/newton.hpp"
@@ -64,6 +65,17 @@ class StepControl {
   }
   [[nodiscard]] int cuts() const { return cuts_; }
 
+  void save(CheckpointWriter& checkpoint) const {
+    checkpoint.number("steps.asked", nominal_);
+    checkpoint.number("steps.dt", dt_), checkpoint.number("steps.good", good_);
+  }
+  /// Goes on with the steps of the run that is continued, unless another time step is asked for now.
+  void restore(const Checkpoint& checkpoint) {
+    if (!checkpoint.has("steps.asked") || checkpoint.number("steps.asked") != nominal_) return;
+    dt_ = checkpoint.number("steps.dt"), good_ = static_cast<int>(checkpoint.number("steps.good"));
+    if (max_ > 0.0) dt_ = std::min(dt_, max_);
+  }
+
  private:
   /// The change of a step is of third order in dt. A factorisation is worth a few steps: dt grows by no less
   /// than a quarter, and not right after a cut.
@@ -119,12 +131,13 @@ concept TransientProblem = requires(P& p, CheckpointWriter& out, const Checkpoin
 /// its checkpoint; a stop request writes one and ends the run with ExitCode::stopped.
 template <TransientProblem Problem, class Observe>
 void march(Run& run, Problem& problem, const TimeOptions& time, Observe&& observe) {
+  StepControl control(time);
+  if (run.restarted()) control.restore(Checkpoint(run.comm(), run.restart_file()));
   const auto save = [&] {
     CheckpointWriter checkpoint(run.comm());
-    problem.save(checkpoint);
+    problem.save(checkpoint), control.save(checkpoint);
     return checkpoint.save(run.path(""), run.totals.steps);
   };
-  StepControl control(time);
   StepRecord record{.from_start = !run.restarted()};
   double next_checkpoint = problem.time() + time.checkpoint_every;
   while (problem.time() < time.end * (1.0 - 1e-10)) {
