@@ -118,6 +118,32 @@ class Surfaces(unittest.TestCase):
         self.assertAlmostEqual(sum(area(points, quads[:, k]) for k in ([0, 1, 2], [0, 2, 3])), 6.0)
 
 
+class Membranes(unittest.TestCase):
+    """A cell of nine nodes on the cylinder x^2 + z^2 = 4, from z = 0 to 1 and y = 0 to 3."""
+
+    def setUp(self):
+        lattice = [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5), (0.5, 0.5)]
+        points = numpy.array([(numpy.sqrt(4 - v ** 2), 3 * u, v) for u, v in lattice])
+        self.grid = vtu.Grid(points, {28: numpy.arange(9)[None]})
+
+    def test_it_is_its_own_surface(self):
+        self.assertTrue(triangles.is_surface(self.grid))
+        quads = self.grid.points[triangles.surface(self.grid)]
+        self.assertEqual(quads.shape, (4, 4, 3))
+        diagonals = numpy.cross(quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1])
+        self.assertAlmostEqual(0.5 * numpy.linalg.norm(diagonals, axis=1).sum(), 3 * 2 * numpy.pi / 6, places=1)
+        self.assertTrue((diagonals[:, 0] < 0).all() or (diagonals[:, 0] > 0).all())  # one way round
+
+    def test_a_plane_cuts_it_along_a_line(self):
+        segments = triangles.curve(self.grid, 1, 0.7)
+        numpy.testing.assert_allclose(segments[..., 1], 0.7)
+        lengths = numpy.linalg.norm(segments[:, 1] - segments[:, 0], axis=1)
+        self.assertAlmostEqual(lengths.sum(), 2 * numpy.pi / 6, places=2)
+        self.assertAlmostEqual(segments[..., 2].min(), 0)
+        self.assertAlmostEqual(segments[..., 2].max(), 1)
+        self.assertEqual(triangles.curve(self.grid, 1, 4.0).shape, (0, 2, 3))
+
+
 class Triangles(unittest.TestCase):
     # VTK positions of the nodes of each cell type on the unit cell.
     TRIANGLE = [(0, 0), (1, 0), (0, 1), (.5, 0), (.5, .5), (0, .5)]
