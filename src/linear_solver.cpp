@@ -108,8 +108,8 @@ class LinearSolver<B>::Impl {
                             : "GMRES with block preconditioner" + size_text(K) + choice.why;
   }
 
-  /// Where the block preconditioner fails, LU takes over, if the size allows: for good where LU does better.
-  /// A system that neither solves says nothing of the next.
+  /// Where the block preconditioner fails, LU takes over, if the size allows, until it fails too: a system
+  /// that nobody solves says nothing of the next.
   bool may_fall_back(const BlockCsr<B>& K) {
     if (use_direct_ || options_.method != "auto" || !lu_is_affordable(B - 1, K.layout().n_global() * B))
       return false;

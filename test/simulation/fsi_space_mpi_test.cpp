@@ -2,6 +2,7 @@
 // ranks.
 #include <gtest/gtest.h>
 
+#include "duct.hpp"
 #include "ifsi/element/elements.hpp"
 #include "ifsi/material/materials.hpp"
 #include "ifsi/mesh/distribute.hpp"
@@ -22,20 +23,14 @@ template <class Element>
 PostEnd bent_post(Communicator comm) {
   using Body = SolidBody<Element, NeoHookean>;
   const auto mesh = distribute(box<Hex1>({0.0, 0.0, 0.0}, {2.0, 1.0, 1.0}, {6, 5, 4}), comm);
-  FlowBoundary<3> boundary;
-  boundary.velocity("left", [](const auto& x, double t) {
-    return Vec<double, 3>{std::min(1.0, 20.0 * t) * 16.0 * x[1] * (1.0 - x[1]) * x[2] * (1.0 - x[2]), 0.0,
-                          0.0};
-  });
-  boundary.traction_free("right");
-  for (const char* wall : {"top", "bottom", "front", "back"}) boundary.no_slip(wall);
   std::vector<Body> post;
   post.emplace_back("post", box<Element>({0.8, 0.0, 0.3}, {1.2, 0.6, 0.7}, {2, 3, 2}),
                     NeoHookean(Lame::from_young(50.0, 0.3)),
                     SolidParameters<3>{.rho_s = 1.2, .rho_f = 1.0, .mu_f = 0.1, .mu_s = 0.0, .gravity = {}});
   FlowOptions flow;
   flow.rho_inf = 0.0, flow.newton.rtol = 1e-10;
-  FsiProblem<Hex1, Body> problem(mesh, boundary, 1.0, Newtonian{0.1}, std::move(post), flow, FsiOptions{});
+  FsiProblem<Hex1, Body> problem(mesh, test::duct(), 1.0, Newtonian{0.1}, std::move(post), flow,
+                                 FsiOptions{});
   const auto X = problem.solids().positions();
   for (int k = 0; k < 2; ++k) EXPECT_TRUE(problem.step(0.05).converged);
   for (int a = 0; a < problem.solids().n_nodes(); ++a)

@@ -1,6 +1,7 @@
 // A membrane in a duct: the same on any number of ranks, with its tangent, its constraint and its restart.
 #include <gtest/gtest.h>
 
+#include "duct.hpp"
 #include "ifsi/assembly/membrane_body.hpp"
 #include "ifsi/element/elements.hpp"
 #include "ifsi/material/materials.hpp"
@@ -45,17 +46,7 @@ std::vector<Membrane> flags(double bending) {
 
 struct FlagsInDuct : MembraneProblem {
   FlagsInDuct(const Mesh<Hex1>& mesh, const FsiOptions& fsi, double bending = 0.5)
-      : MembraneProblem(mesh, duct(), 1.0, Newtonian{0.1}, flags(bending), options(), fsi) {}
-  static FlowBoundary<3> duct() {
-    FlowBoundary<3> boundary;
-    boundary.velocity("left", [](const auto& x, double t) {
-      return Vec<double, 3>{std::min(1.0, 20.0 * t) * 16.0 * x[1] * (1.0 - x[1]) * x[2] * (1.0 - x[2]), 0.0,
-                            0.0};
-    });
-    boundary.traction_free("right");
-    for (const char* wall : {"top", "bottom", "front", "back"}) boundary.no_slip(wall);
-    return boundary;
-  }
+      : MembraneProblem(mesh, test::duct(), 1.0, Newtonian{0.1}, flags(bending), options(), fsi) {}
   static FlowOptions options() {
     FlowOptions flow;
     flow.rho_inf = 0.0, flow.newton.rtol = 1e-10;

@@ -81,6 +81,10 @@ TEST(StepControl, ARestartGoesOnWithTheSameSteps) {
     EXPECT_NE(next.next(0.0, 100.0), 0.1);
     next.accepted(next.next(0.0, 100.0), 1e-3), control.accepted(control.next(0.0, 100.0), 1e-3);
   }
+  time.adaptive = false;  // now
+  StepControl constant(time);
+  constant.restore(in);
+  EXPECT_EQ(constant.next(0.0, 100.0), 0.1);
   time.dt = 0.05;  // asked for anew
   StepControl other(time);
   other.restore(in);

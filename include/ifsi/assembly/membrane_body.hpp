@@ -113,11 +113,12 @@ class MembraneBody {
     FieldAverage average(n_nodes());
     for (int c = 0; c < mesh_.n_cells(); ++c)
       with_cell({u}, c, [&](const Kernel& kernel) {
-        for (int q = 0; q < Kernel::n_points; ++q)
+        for (int q = 0; q < Kernel::n_points; ++q) {
+          const auto sigma = kernel.cauchy(q), E = kernel.green_lagrange(q);
+          const double dV = kernel.reference_volume(q), J = det(kernel.deformation_gradient(q));
           for (int a = 0; a < n; ++a)
-            average.add(mesh_.cells[c][a],
-                        std::abs(BasisTable<Element>::N[q][a]) * kernel.reference_volume(q), kernel.cauchy(q),
-                        kernel.green_lagrange(q), det(kernel.deformation_gradient(q)));
+            average.add(mesh_.cells[c][a], std::abs(BasisTable<Element>::N[q][a]) * dV, sigma, E, J);
+        }
       });
     return average.fields();
   }

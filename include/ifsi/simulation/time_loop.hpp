@@ -73,7 +73,7 @@ class StepControl {
   void restore(const Checkpoint& checkpoint) {
     if (!checkpoint.has("steps.asked") || checkpoint.number("steps.asked") != nominal_) return;
     dt_ = checkpoint.number("steps.dt"), good_ = static_cast<int>(checkpoint.number("steps.good"));
-    if (max_ > 0.0) dt_ = std::min(dt_, max_);
+    dt_ = std::min(dt_, max_ > 0.0 ? max_ : nominal_);
   }
 
  private:
